@@ -1,0 +1,64 @@
+# Everything a reader of the README needs. Each step does its own parallel work, so steps run one at a time even
+# under `make -j`.
+.NOTPARALLEL:
+.DEFAULT_GOAL := help
+
+LEVEL ?= gate
+BUILD := build
+JOBS ?= $(shell nproc)
+PYTHON := .venv/bin/python
+# Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_NATIVE=OFF
+CMAKE_FLAGS ?=
+
+.PHONY: help setup configure build test reference verify report faults baseline lint format docs clean
+
+help: ## List the targets
+	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 18
+
+setup: ## Install what is missing: Debian packages (packages.apt) and .venv (requirements.txt)
+	@scripts/setup
+
+configure: setup
+	@if [ -n "$(CMAKE_FLAGS)" ] || [ ! -e $(BUILD)/CMakeFiles/TargetDirectories.txt ]; then \
+	    [ -e $(BUILD)/CMakeCache.txt ] || ! command -v ninja >/dev/null || generator=-GNinja; \
+	    cmake -S . -B $(BUILD) $${generator:-} $(CMAKE_FLAGS); fi
+
+build: configure ## Build build/slurry and its tests
+	@env -u MAKEFLAGS -u MFLAGS cmake --build $(BUILD) --parallel $(JOBS)
+
+test: build ## Unit tests: GoogleTest through ctest, then pytest
+	@ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure --no-tests=error
+	@$(PYTHON) -m pytest tests/python
+
+reference: setup ## Make the reference solutions that verify compares with (cached in build/reference)
+	@$(PYTHON) -m reference.make
+
+verify: build ## Run every case against its reference; the exit status is the verdict (LEVEL=gate or paper)
+	@$(PYTHON) -m verification.run --level $(LEVEL)
+
+report: setup ## Write the report again from the last results (build/verify/report.html)
+	@$(PYTHON) -m verification.report
+
+faults: build ## Plant each known fault and show that the named checks fail
+	@$(PYTHON) -m verification.faults
+
+baseline: setup ## Accept the last results as verification/baseline.json, for review in a commit
+	@$(PYTHON) -m verification.baseline --accept
+
+lint: configure ## Check format, clang-tidy, cppcheck and ruff
+	@scripts/lint $(BUILD) $(JOBS)
+
+format: setup ## Rewrite C++ and Python files in the house's format
+	@find solver tests benchmarks \( -name '*.cpp' -o -name '*.hpp' \) -print0 2>/dev/null | xargs -0 clang-format -i
+	@$(PYTHON) -m ruff check --fix-only --quiet .
+	@$(PYTHON) -m ruff format .
+
+docs: build ## Write docs/scene.md, and from the last results README's table and docs/rough_channel.png
+	@mkdir -p docs
+	@$(BUILD)/slurry help scene --markdown >$(BUILD)/scene.md
+	@mv $(BUILD)/scene.md docs/scene.md
+	@[ ! -e $(BUILD)/verify/results.json ] || \
+	    $(PYTHON) -m verification.report --readme README.md --picture docs/rough_channel.png
+
+clean: ## Remove build/ (also the cached references and the last results)
+	rm -rf $(BUILD)

@@ -1,0 +1,35 @@
+#pragma once
+// What the time step asks of the particles' interactions; the widths and compositions behind it are chosen once.
+#include "solver/particles/particles.hpp"
+#include "solver/scene/scene.hpp"
+
+#include <memory>
+
+namespace slurry {
+
+class Interactions {
+  public:
+    Interactions() = default;
+    Interactions(const Interactions&) = delete;
+    Interactions& operator=(const Interactions&) = delete;
+    virtual ~Interactions() = default;
+
+    // Brings the neighbour lists up to date with the positions. Wraps and sorts the particles when it rebuilds them.
+    virtual void refresh_neighbours(Particles& particles) = 0;
+    // Eq. 2.14 with the scene's corrections, into fluid.density_rate.
+    virtual void compute_density_rate(Particles& particles) = 0;
+    // V = 1 / sum W (below Eq. 2.8), into fluid.volume.
+    virtual void compute_volumes(Particles& particles) = 0;
+    // Eqs. 2.16 and 2.17, into the dummies' velocity and pressure.
+    virtual void extrapolate_to_walls(Particles& particles) = 0;
+    // Eqs. 2.15, 2.19 and 2.20 (without the body force), into fluid.acceleration and fluid.background.
+    virtual void compute_forces(Particles& particles) = 0;
+    // Number of times that the neighbour lists were made.
+    [[nodiscard]] virtual long rebuilds() const = 0;
+};
+
+// As wide as the machine's vectors, or with plain numbers (the reference that the wide loops are tested against).
+enum class LoopWidth : unsigned char { native, plain };
+std::unique_ptr<Interactions> make_interactions(const Scene& scene, LoopWidth width = LoopWidth::native);
+
+} // namespace slurry

@@ -1,0 +1,163 @@
+#include "solver/loop/periodic_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace slurry {
+
+namespace {
+
+double wrap_shift(double position, double lower, double length) {
+    return -std::floor((position - lower) / length) * length;
+}
+
+// Order by strips of the given height, then by x.
+std::vector<std::uint32_t> strip_order(const std::vector<double>& x, const std::vector<double>& y, double lower_y,
+                                       double height) {
+    struct Key {
+        std::int32_t strip;
+        std::uint32_t index;
+        double x;
+    };
+    std::vector<Key> keys(x.size());
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        keys[k] = {static_cast<std::int32_t>(std::floor((y[k] - lower_y) / height)), static_cast<std::uint32_t>(k), x[k]};
+    }
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+        return a.strip != b.strip ? a.strip < b.strip : (a.x != b.x ? a.x < b.x : a.index < b.index);
+    });
+    std::vector<std::uint32_t> order(keys.size());
+    std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& key) { return key.index; });
+    return order;
+}
+
+template <class T> void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
+    std::vector<T> sorted(values.size());
+    std::transform(order.begin(), order.end(), sorted.begin(), [&](std::uint32_t k) { return values[k]; });
+    values.swap(sorted);
+}
+
+void wrap(Particles& particles, const Domain& domain) {
+    FluidParticles& fluid = particles.fluid;
+    DummyParticles& dummies = particles.dummies;
+    const Vector length = domain.size();
+    if (domain.periodic[0]) {
+        for (double& x : fluid.x) {
+            x += wrap_shift(x, domain.lower.x(), length.x());
+        }
+        for (std::size_t d = 0; d < dummies.size(); ++d) {
+            const double shift = wrap_shift(dummies.x[d], domain.lower.x(), length.x());
+            dummies.x[d] += shift;
+            dummies.start_x[d] += shift;
+        }
+    }
+    if (domain.periodic[1]) {
+        for (double& y : fluid.y) {
+            y += wrap_shift(y, domain.lower.y(), length.y());
+        }
+        for (std::size_t d = 0; d < dummies.size(); ++d) {
+            const double shift = wrap_shift(dummies.y[d], domain.lower.y(), length.y());
+            dummies.y[d] += shift;
+            dummies.start_y[d] += shift;
+        }
+    }
+}
+
+void sort(Particles& particles, double lower_y, double strip_height) {
+    FluidParticles& fluid = particles.fluid;
+    const auto order = strip_order(fluid.x, fluid.y, lower_y, strip_height);
+    fluid.each_array([&](std::vector<double>& array) { reorder(array, order); });
+    reorder(fluid.identity, order);
+    DummyParticles& dummies = particles.dummies;
+    const auto dummy_order = strip_order(dummies.x, dummies.y, lower_y, strip_height);
+    dummies.each_array([&](auto& array) { reorder(array, dummy_order); });
+}
+
+} // namespace
+
+void PeriodicRows::rebuild(Particles& particles, const Domain& domain, double reach) {
+    wrap(particles, domain);
+    sort(particles, domain.lower.y(), reach);
+    fluid_count_ = particles.fluid.size();
+    particle_count_ = fluid_count_ + particles.dummies.size();
+    x_ = particles.fluid.x;
+    y_ = particles.fluid.y;
+    x_.insert(x_.end(), particles.dummies.x.begin(), particles.dummies.x.end());
+    y_.insert(y_.end(), particles.dummies.y.begin(), particles.dummies.y.end());
+    add_copies(domain, reach);
+}
+
+void PeriodicRows::add_copies(const Domain& domain, double reach) {
+    copies_.clear();
+    const Vector length = domain.size();
+    const auto copy_range = [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            for (int column = domain.periodic[0] ? -1 : 0; column <= (domain.periodic[0] ? 1 : 0); ++column) {
+                for (int row = domain.periodic[1] ? -1 : 0; row <= (domain.periodic[1] ? 1 : 0); ++row) {
+                    const Vector shift(column * length.x(), row * length.y());
+                    const double x = x_[k] + shift.x();
+                    const double y = y_[k] + shift.y();
+                    const bool near_x = column == 0 || (x > domain.lower.x() - reach && x < domain.upper.x() + reach);
+                    const bool near_y = row == 0 || (y > domain.lower.y() - reach && y < domain.upper.y() + reach);
+                    if ((column != 0 || row != 0) && near_x && near_y) {
+                        copies_.push_back({static_cast<std::uint32_t>(k), shift});
+                    }
+                }
+            }
+        }
+    };
+    copy_range(0, fluid_count_);
+    fluid_copies_ = copies_.size();
+    copy_range(fluid_count_, particle_count_);
+    for (const Copy& copy : copies_) {
+        x_.push_back(x_[copy.source] + copy.shift.x());
+        y_.push_back(y_[copy.source] + copy.shift.y());
+    }
+}
+
+std::vector<std::uint32_t> PeriodicRows::fluid_rows() const {
+    std::vector<std::uint32_t> rows(fluid_count_ + fluid_copies_);
+    std::iota(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(fluid_count_), 0U);
+    std::iota(rows.begin() + static_cast<std::ptrdiff_t>(fluid_count_), rows.end(),
+              static_cast<std::uint32_t>(particle_count_));
+    return rows;
+}
+
+std::vector<std::uint32_t> PeriodicRows::all_rows() const {
+    std::vector<std::uint32_t> rows(particle_count_ + copies_.size());
+    std::iota(rows.begin(), rows.end(), 0U);
+    return rows;
+}
+
+double PeriodicRows::relative_displacement(const Particles& particles) const {
+    // All particles' displacements lie in a box; no two differ by more than its diagonal. A motion common to all
+    // costs no rebuild.
+    const auto range = [](const std::vector<double>& now, const double* before, double& lowest, double& highest) {
+        const std::size_t count = now.size();
+        double low = lowest;
+        double high = highest;
+#pragma omp simd reduction(min : low) reduction(max : high)
+        for (std::size_t k = 0; k < count; ++k) {
+            const double moved = now[k] - before[k];
+            low = moved < low ? moved : low;
+            high = moved > high ? moved : high;
+        }
+        lowest = low;
+        highest = high;
+    };
+    if (particle_count_ == 0) {
+        return 0;
+    }
+    double low_x = particles.fluid.x[0] - x_[0];
+    double low_y = particles.fluid.y[0] - y_[0];
+    double high_x = low_x;
+    double high_y = low_y;
+    range(particles.fluid.x, x_.data(), low_x, high_x);
+    range(particles.fluid.y, y_.data(), low_y, high_y);
+    range(particles.dummies.x, x_.data() + fluid_count_, low_x, high_x);
+    range(particles.dummies.y, y_.data() + fluid_count_, low_y, high_y);
+    return std::hypot(high_x - low_x, high_y - low_y);
+}
+
+} // namespace slurry

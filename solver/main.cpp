@@ -1,0 +1,167 @@
+// The command line: `slurry run|check|info SCENE`, `slurry help scene`.
+#include "solver/geometry/geometry_error.hpp"
+#include "solver/geometry/region.hpp"
+#include "solver/output/result_file.hpp"
+#include "solver/scene/manual.hpp"
+#include "solver/scene/read_scene.hpp"
+#include "solver/time/simulation.hpp"
+#include "solver/time/watchdog.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace slurry {
+namespace {
+
+constexpr int bad_input = 2;
+constexpr int run_went_wrong = 3;
+
+struct Arguments {
+    std::filesystem::path scene;
+    std::string spacing;
+    std::vector<std::string> overrides;
+    RunOptions run;
+    std::string topic;
+    bool markdown = false;
+};
+
+void print(std::string_view text) {
+    errno = 0;
+    if (!(std::cout << text << std::flush))
+        throw OutputError(fmt::format("standard output: cannot write{}{}", errno == 0 ? "" : ": ",
+                                      errno == 0 ? "" : std::strerror(errno)));
+}
+
+Scene scene_of(const Arguments& arguments) {
+    std::vector<std::string> overrides = arguments.overrides;
+    if (!arguments.spacing.empty())
+        overrides.push_back("numerics.particle_spacing=" + arguments.spacing);
+    return read_scene(arguments.scene, overrides);
+}
+
+void run(const Arguments& arguments) {
+    RunOptions options = arguments.run;
+    if (options.folder.empty())
+        options.folder = arguments.scene.stem() += ".out";
+    run_scene(scene_of(arguments), options);
+    print(""); // or a summary that got lost would go unnoticed
+}
+
+void check(const Arguments& arguments) {
+    const Scene scene = scene_of(arguments);
+    const std::size_t particles = Region(scene).lattice_points(scene.numerics.particle_spacing).size();
+    print(fmt::format("{}: ok, {} fluid particles\n", arguments.scene.string(), particles));
+}
+
+void info(const Arguments& arguments) {
+    print(describe_scene(scene_of(arguments)));
+}
+
+CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, Arguments& arguments) {
+    CLI::App* command = app.add_subcommand(name, description);
+    command->add_option("SCENE", arguments.scene, "Scene file (TOML); `slurry help scene` describes it")
+        ->required();
+    command
+        ->add_option("--spacing", arguments.spacing,
+                     "Particle spacing, m: short for --set numerics.particle_spacing=M")
+        ->type_name("M");
+    command
+        ->add_option("--set", arguments.overrides, "Another value for a key of the scene (may be repeated)")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false); // or it would take SCENE, too
+    return command;
+}
+
+void add_commands(CLI::App& app, Arguments& arguments) {
+    app.set_version_flag("--version", "slurry " SLURRY_VERSION);
+    app.require_subcommand(1);
+    CLI::App* runner = add_scene_command(app, "run", "Simulate a scene", arguments);
+    runner
+        ->add_option("--out", arguments.run.folder,
+                     "Folder for result.h5 and result.xdmf, made when missing (SCENE's stem + .out)")
+        ->type_name("DIR");
+    arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    runner
+        ->add_option("--threads", arguments.run.threads,
+                     "Number of threads; the answer does not depend on it")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N")
+        ->capture_default_str();
+    runner->add_flag("--quiet", arguments.run.quiet, "No progress and no summary");
+    runner->callback([&] { run(arguments); });
+    add_scene_command(app, "check", "Check a scene and its geometry", arguments)->callback([&] {
+        check(arguments);
+    });
+    add_scene_command(app, "info", "Tell what a run would do, and why", arguments)->callback([&] {
+        info(arguments);
+    });
+    CLI::App* helper = app.add_subcommand("help", "Describe the scene file");
+    helper->add_option("TOPIC", arguments.topic, "scene")->required()->check(CLI::IsMember({"scene"}));
+    helper->add_flag("--markdown", arguments.markdown, "As Markdown, for the documentation");
+    helper->callback([&] { print(arguments.markdown ? scene_manual_markdown() : scene_manual()); });
+}
+
+int run_command_line(int count, char** words, Arguments& arguments) {
+    CLI::App app("Smoothed particle hydrodynamics of the slurry film in chemical mechanical polishing",
+                 "slurry");
+    add_commands(app, arguments);
+    try {
+        app.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0)
+            throw;
+        app.exit(error); // --help, --version
+        print("");
+    }
+    return 0;
+}
+
+// A script that reads the errors may count on one line for each.
+int fail(std::string reason, int status) {
+    std::ranges::replace(reason, '\n', ' ');
+    std::cerr << reason << '\n';
+    return status;
+}
+
+int run_and_report(int count, char** words) {
+    Arguments arguments;
+    try {
+        return run_command_line(count, words, arguments);
+    } catch (const CLI::ParseError& error) {
+        return fail(fmt::format("{}; see slurry --help", error.what()), bad_input);
+    } catch (const SceneError& error) {
+        return fail(error.what(), bad_input);
+    } catch (const GeometryError& error) {
+        return fail(fmt::format("{}: {}", arguments.scene.string(), error.what()), bad_input);
+    } catch (const OutputError& error) {
+        return fail(error.what(), bad_input);
+    } catch (const std::bad_alloc&) {
+        return fail(
+            "out of memory: found more particles or samples than fit; choose a larger particle_spacing",
+            bad_input);
+    } catch (const RunError& error) {
+        return fail(error.what(), run_went_wrong);
+    } catch (const std::exception& error) {
+        return fail(fmt::format("internal error, please report it: {}", error.what()), run_went_wrong);
+    }
+}
+
+} // namespace
+} // namespace slurry
+
+int main(int count, char** words) {
+    std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is to end like a full disk, with a reason
+    return slurry::run_and_report(count, words);
+}

@@ -1,0 +1,145 @@
+#include "solver/output/result_file.hpp"
+
+#include "solver/output/hdf5_writer.hpp"
+#include "solver/output/partial_file.hpp"
+#include "solver/output/xdmf.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace slurry {
+namespace {
+
+std::filesystem::path result_path(const std::filesystem::path& folder, bool overwrite) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw OutputError(
+            fmt::format("{}: cannot make the output folder: {}", folder.string(), error.message()));
+    std::filesystem::path target = folder / "result.h5";
+    if (std::filesystem::is_directory(target, error))
+        throw OutputError(
+            fmt::format("{}: is a folder; remove it or choose another folder", target.string()));
+    if (!overwrite && std::filesystem::exists(target, error))
+        throw OutputError(
+            fmt::format("{}: exists already; remove it or choose another folder", target.string()));
+    return target;
+}
+
+} // namespace
+
+struct ResultFile::Implementation {
+    std::string title;
+    std::vector<ProbeScene> probes;
+    PartialFile partial;
+    Hdf5Writer writer; // destroyed before the file it writes to
+    std::vector<XdmfSnapshot> snapshots;
+
+    Implementation(const std::filesystem::path& target, const Scene& scene)
+        : title(scene.title), probes(scene.probes), partial(target), writer(partial.path()) {}
+
+    [[nodiscard]] bool is_point(std::string_view probe) const {
+        return std::ranges::any_of(probes, [&](const ProbeScene& known) {
+            return known.name == probe && std::holds_alternative<PointProbe>(known.kind);
+        });
+    }
+    void require_as_many_rows_as_times(const std::string& group, const std::string& path) const {
+        if (writer.rows(path) != writer.rows(group + "/time"))
+            throw std::logic_error(path + ": needs one row for each time");
+    }
+};
+
+ResultFile::ResultFile(const std::filesystem::path& folder, const Scene& scene, std::string_view version,
+                       bool overwrite)
+    : implementation_(std::make_unique<Implementation>(result_path(folder, overwrite), scene)) {
+    Hdf5Writer& writer = implementation_->writer;
+    for (const char* group : {"/run", "/series", "/probes", "/snapshots"})
+        writer.make_group(group);
+    writer.set_attribute("/", "version", version);
+    writer.set_attribute("/", "scene", scene.resolved_text);
+    writer.flush();
+}
+
+ResultFile::~ResultFile() = default;
+
+void ResultFile::begin_sample(double time) {
+    implementation_->writer.flush(); // a full disk ends the run now, not when all is computed
+    implementation_->writer.append("/series/time", "s", time);
+}
+
+void ResultFile::add_sample(std::string_view name, std::string_view unit, double value) {
+    const std::string path = fmt::format("/series/{}", name);
+    implementation_->writer.append(path, unit, value);
+    implementation_->require_as_many_rows_as_times("/series", path);
+}
+
+void ResultFile::begin_probe_sample(std::string_view probe, double time) {
+    implementation_->writer.append(fmt::format("/probes/{}/time", probe), "s", time);
+}
+
+void ResultFile::add_probe_row(std::string_view probe, std::string_view quantity, std::string_view unit,
+                               std::span<const double> row) {
+    const std::string group = fmt::format("/probes/{}", probe);
+    const std::string path = fmt::format("{}/{}", group, quantity);
+    if (!implementation_->is_point(probe))
+        implementation_->writer.append(path, unit, row);
+    else if (row.size() == 1)
+        implementation_->writer.append(path, unit, row.front());
+    else
+        throw std::logic_error(path + ": a point has one value");
+    implementation_->require_as_many_rows_as_times(group, path);
+}
+
+void ResultFile::add_probe_constant(std::string_view probe, std::string_view quantity, std::string_view unit,
+                                    std::span<const double> values) {
+    implementation_->writer.write(fmt::format("/probes/{}/{}", probe, quantity), unit, values);
+}
+
+void ResultFile::add_snapshot(const Snapshot& snapshot) {
+    Hdf5Writer& writer = implementation_->writer;
+    const std::size_t particles = snapshot.wall.size();
+    const std::string group = fmt::format("/snapshots/{:04}", implementation_->snapshots.size());
+    const auto add = [&](std::string_view quantity, std::string_view unit, auto values) {
+        const std::string path = fmt::format("{}/{}", group, quantity);
+        if (values.size() != particles)
+            throw std::logic_error(path + ": needs one value for each particle");
+        writer.write(path, unit, values);
+    };
+    add("position_x", "m", snapshot.position_x);
+    add("position_y", "m", snapshot.position_y);
+    add("velocity_x", "m/s", snapshot.velocity_x);
+    add("velocity_y", "m/s", snapshot.velocity_y);
+    add("density", "kg/m3", snapshot.density);
+    add("pressure", "Pa", snapshot.pressure);
+    add("volume", "m2", snapshot.volume);
+    add("wall", "1", snapshot.wall);
+    // The one form of a vector that all of ParaView's XDMF readers take.
+    writer.write_vector_view(group + "/position", "m", particles);
+    writer.write_vector_view(group + "/velocity", "m/s", particles);
+    writer.set_attribute(group, "time", snapshot.time);
+    implementation_->snapshots.push_back({group, snapshot.time, particles});
+    writer.flush();
+}
+
+void ResultFile::set_attribute(std::string_view name, double value) {
+    implementation_->writer.set_attribute("/run", std::string(name), value);
+}
+
+std::filesystem::path ResultFile::finish() {
+    implementation_->writer.close();
+    PartialFile& result = implementation_->partial;
+    result.synchronise();
+    std::filesystem::path xdmf = result.target();
+    PartialFile description(xdmf.replace_extension(".xdmf"));
+    description.write(xdmf_document(implementation_->title, "result.h5", implementation_->snapshots));
+    description.synchronise();
+    result.commit();
+    description.commit();
+    return result.target();
+}
+
+} // namespace slurry

@@ -1,0 +1,64 @@
+#pragma once
+// The one output file of a run, result.h5, and result.xdmf beside it for ParaView.
+#include "solver/scene/scene.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace slurry {
+
+// The output could not be written; what() is one line that names the file and the reason.
+class OutputError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+// All particles at one time; the spans have equal length and are ordered by particle identity.
+struct Snapshot {
+    double time;
+    std::span<const double> position_x, position_y, velocity_x, velocity_y, density, pressure, volume;
+    std::span<const int> wall; // index of the wall a dummy belongs to, -1 for fluid
+};
+
+// Collects the results in `result.h5.partial` and gives the file its name only when the run has ended well;
+// when it is destroyed before, the partial file is removed.
+class ResultFile {
+  public:
+    // Makes the folder if needed. Throws OutputError when it cannot be written; refuses a folder that already
+    // holds a result only if `overwrite` is false.
+    ResultFile(const std::filesystem::path& folder, const Scene& scene, std::string_view version,
+               bool overwrite);
+    ~ResultFile();
+    ResultFile(const ResultFile&) = delete;
+    ResultFile& operator=(const ResultFile&) = delete;
+
+    // Appends one sample to /series/<name>, and its time to /series/time (call begin_sample first).
+    void begin_sample(double time);
+    void add_sample(std::string_view name, std::string_view unit, double value);
+
+    // Appends one row to /probes/<probe>/<quantity>; begin_probe_sample appends to /probes/<probe>/time.
+    void begin_probe_sample(std::string_view probe, double time);
+    void add_probe_row(std::string_view probe, std::string_view quantity, std::string_view unit,
+                       std::span<const double> row);
+    // A dataset of a probe that does not change with time: /probes/<probe>/<quantity>.
+    void add_probe_constant(std::string_view probe, std::string_view quantity, std::string_view unit,
+                            std::span<const double> values);
+
+    void add_snapshot(const Snapshot& snapshot); // /snapshots/0000/...
+
+    // A number about the run: attribute of /run (fluid_particles, steps, wall_seconds, threads, ...).
+    void set_attribute(std::string_view name, double value);
+
+    // Syncs, renames to result.h5, writes result.xdmf. Returns the path.
+    std::filesystem::path finish();
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace slurry

@@ -1,0 +1,126 @@
+#include "solver/particles/arrangement.hpp"
+
+#include "solver/kernels/quintic_spline.hpp"
+#include "solver/loop/interactions.hpp"
+
+#include <gsl/gsl_rng.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace slurry {
+
+namespace {
+
+// Moves every point by up to `jitter` spacings along each axis, less where that would bring it to a wall.
+void jitter_points(std::vector<Vector>& points, const Start& start, double spacing, const Region& region) {
+    const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
+    gsl_rng_set(random.get(), static_cast<unsigned long>(start.seed));
+    const double closest = 0.25 * spacing;
+    for (Vector& point : points) {
+        const double x = 2 * gsl_rng_uniform(random.get()) - 1;
+        const double y = 2 * gsl_rng_uniform(random.get()) - 1;
+        const Vector displacement = start.jitter * spacing * Vector(x, y);
+        if (region.distance(point + displacement) > std::min(closest, region.distance(point))) {
+            point += displacement;
+        }
+    }
+}
+
+void place_dummies(DummyParticles& dummies, const Scene& scene, const Region& region) {
+    const auto by_wall = region.dummies(scene.numerics.wall_dummies, scene.numerics.particle_spacing,
+                                        dummy_layers(scene.numerics));
+    std::size_t count = 0;
+    for (const auto& of_wall : by_wall) {
+        count += of_wall.size();
+    }
+    dummies.resize(count);
+    std::size_t d = 0;
+    for (std::size_t w = 0; w < by_wall.size(); ++w) {
+        dummies.wall_velocity.push_back(region.walls()[w].velocity());
+        for (const Dummy& dummy : by_wall[w]) {
+            dummies.start_x[d] = dummy.position.x();
+            dummies.start_y[d] = dummy.position.y();
+            dummies.volume[d] = dummy.volume;
+            dummies.wall[d] = static_cast<int>(w);
+            ++d;
+        }
+    }
+    dummies.move_to(0);
+}
+
+// Lets the background pressure even out the spacing, without inertia, against walls at rest. One iteration moves a
+// particle by h^2 / c^2 times its acceleration: a third of the stability limit of this descent.
+void relax(Particles& particles, const Scene& scene) {
+    constexpr int most_iterations = 1000;
+    constexpr double still = 1e-4; // spacings per iteration
+    Scene uniform = scene;
+    uniform.numerics.background_pressure_ratio = 1;
+    uniform.numerics.advection_tensor = false;
+    const auto interactions = make_interactions(uniform);
+    const double h = scene.numerics.smoothing_length();
+    const double spacing = scene.numerics.particle_spacing;
+    const double factor = std::pow(h / scene.numerics.sound_speed, 2);
+    FluidParticles& fluid = particles.fluid;
+    double largest = spacing;
+    for (int k = 0; k < most_iterations && largest > still * spacing; ++k) {
+        interactions->refresh_neighbours(particles);
+        interactions->compute_volumes(particles);
+        interactions->compute_forces(particles);
+        largest = 0;
+        for (std::size_t i = 0; i < fluid.size(); ++i) {
+            const Vector wanted = factor * Vector(fluid.background_x[i], fluid.background_y[i]);
+            const Vector moved = wanted * std::min(1.0, 0.1 * spacing / std::max(wanted.norm(), 1e-300));
+            fluid.x[i] += moved.x();
+            fluid.y[i] += moved.y();
+            largest = std::max(largest, moved.norm());
+        }
+    }
+}
+
+void set_velocity(FluidParticles& fluid, const Start& start, const Domain& domain) {
+    const Vector size = domain.size();
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        const double x = 2 * std::numbers::pi * (fluid.x[i] - domain.lower.x()) / size.x();
+        const double y = 2 * std::numbers::pi * (fluid.y[i] - domain.lower.y()) / size.x();
+        if (start.velocity == InitialVelocity::taylor_green) {
+            fluid.velocity_x[i] = -start.speed * std::cos(x) * std::sin(y);
+            fluid.velocity_y[i] = start.speed * std::sin(x) * std::cos(y);
+        } else if (start.velocity == InitialVelocity::shear) {
+            fluid.velocity_x[i] = start.speed * (fluid.y[i] - domain.lower.y()) / size.y();
+        }
+    }
+}
+
+} // namespace
+
+int dummy_layers(const Numerics& numerics) {
+    return static_cast<int>(std::ceil(QuinticSpline::support * numerics.smoothing_ratio - 1e-9));
+}
+
+Particles arrange_particles(const Scene& scene, const Region& region) {
+    Particles particles;
+    const double spacing = scene.numerics.particle_spacing;
+    std::vector<Vector> points = region.lattice_points(spacing);
+    if (scene.start.arrangement != Arrangement::lattice) {
+        jitter_points(points, scene.start, spacing, region);
+    }
+    FluidParticles& fluid = particles.fluid;
+    fluid.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        fluid.x[i] = points[i].x();
+        fluid.y[i] = points[i].y();
+        fluid.density[i] = scene.fluid.density;
+    }
+    fluid.mass = scene.fluid.density * region.fluid_area() / static_cast<double>(points.size());
+    place_dummies(particles.dummies, scene, region);
+    if (scene.start.arrangement == Arrangement::relaxed) {
+        relax(particles, scene);
+    }
+    set_velocity(fluid, scene.start, scene.domain);
+    return particles;
+}
+
+} // namespace slurry

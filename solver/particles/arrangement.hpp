@@ -1,0 +1,17 @@
+#pragma once
+// The start of a scene: where the particles are and how they move.
+#include "solver/geometry/region.hpp"
+#include "solver/particles/particles.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace slurry {
+
+// Fluid particles on a lattice, jittered or relaxed as the scene says, at the reference density, and the dummies of
+// all walls. All fluid particles have the same mass, so that their sum is the fluid's.
+Particles arrange_particles(const Scene& scene, const Region& region);
+
+// Layers of dummies that complete the kernel's support: the first fluid row is half a spacing from the wall, and so
+// is the first layer.
+int dummy_layers(const Numerics& numerics);
+
+} // namespace slurry

@@ -1,0 +1,187 @@
+// The one table of what a scene file can say.
+#include "solver/scene/binding.hpp"
+#include "solver/scene/parameters.hpp"
+
+#include <numbers>
+
+namespace slurry {
+namespace {
+
+const Default required{};
+const Default origin{std::vector<double>{0, 0}};
+
+Default word(const char* text) {
+    return {std::string(text)};
+}
+
+Allowed anything() {
+    return {};
+}
+Allowed positive() {
+    return {.lower = 0, .lower_excluded = true};
+}
+Allowed positive_up_to(double upper) {
+    return {.lower = 0, .upper = upper, .lower_excluded = true};
+}
+Allowed at_least(double lower) {
+    return {.lower = lower};
+}
+Allowed between(double lower, double upper) {
+    return {.lower = lower, .upper = upper};
+}
+Allowed identifier() {
+    return {.identifier = true};
+}
+Allowed one_of(std::vector<std::string_view> choices) {
+    return {.choices = std::move(choices)};
+}
+
+template <auto Tables> std::size_t count_of(const Scene& scene) {
+    return (scene.*Tables).size();
+}
+template <auto Tables> void append_to(Scene& scene) {
+    (scene.*Tables).emplace_back();
+}
+std::size_t one(const Scene& /*scene*/) {
+    return 1;
+}
+
+// name, selector, number of tables, adding one, meaning
+const std::vector<Section> section_table{
+    {"scene", "", one, nullptr, "what this is, and the scheme that sets the defaults of [numerics]"},
+    {"domain", "", one, nullptr, "the rectangle that holds the fluid"},
+    {"fluid", "", one, nullptr, "the liquid"},
+    {"numerics", "", one, nullptr, "the discretisation"},
+    {"start", "", one, nullptr, "particles and velocities at time 0"},
+    {"walls", "shape", count_of<&Scene::walls>, append_to<&Scene::walls>,
+     "solid walls, at rest or translating"},
+    {"probes", "kind", count_of<&Scene::probes>, append_to<&Scene::probes>, "what is measured"},
+    {"output", "", one, nullptr, "when it ends and what is written"},
+};
+
+// section, shape or kind, key, member, unit, default, allowed, meaning
+const std::vector<Parameter> parameter_table{
+    {"scene", "", "title", member(&Scene::title), "", word(""), anything(), "one line for reports"},
+    {"scene", "", "scheme", member(&Scene::scheme), "", word("default"), one_of({"default", "wang2014"}),
+     "wang2014 is the paper's scheme as written; default adds density diffusion and dummies along the "
+     "walls"},
+
+    {"domain", "", "lower", member(&Domain::lower), "m", required, anything(), "lower left corner [x, y]"},
+    {"domain", "", "upper", member(&Domain::upper), "m", required, anything(), "upper right corner [x, y]"},
+    {"domain", "", "periodic", member(&Domain::periodic), "", word("none"), one_of({"none", "x", "y", "xy"}),
+     "directions in which the flow repeats"},
+
+    {"fluid", "", "density", member(&Fluid::density), "kg/m3", required, positive(), "at rest"},
+    {"fluid", "", "dynamic_viscosity", member(&Fluid::dynamic_viscosity), "Pa s", required, positive(),
+     "Newtonian, constant"},
+    {"fluid", "", "body_force", member(&Fluid::body_force), "m/s2", origin, anything(),
+     "force per mass [x, y], gravity for one"},
+
+    {"numerics", "", "particle_spacing", member(&Numerics::particle_spacing), "m", required, positive(),
+     "distance between neighbouring particles at the start"},
+    {"numerics", "", "smoothing_ratio", member(&Numerics::smoothing_ratio), "", 1.0, between(0.8, 2),
+     "smoothing length over particle spacing; the kernel reaches 3 smoothing lengths"},
+    {"numerics", "", "sound_speed", member(&Numerics::sound_speed), "m/s", required, positive(),
+     "artificial; 10 times the largest flow speed keeps density within 1 %"},
+    {"numerics", "", "background_pressure_ratio", member(&Numerics::background_pressure_ratio), "", 1.0,
+     between(0, 10), "background pressure over density * sound_speed^2; 0 turns the transport velocity off"},
+    {"numerics", "", "acoustic_cfl", member(&Numerics::acoustic_cfl), "", 0.25, positive_up_to(10),
+     "time step over smoothing_length / (sound_speed + speed)"},
+    {"numerics", "", "viscous_cfl", member(&Numerics::viscous_cfl), "", 0.25, positive_up_to(10),
+     "time step over smoothing_length^2 / kinematic viscosity"},
+    {"numerics", "", "force_cfl", member(&Numerics::force_cfl), "", 0.25, positive_up_to(10),
+     "time step over sqrt(smoothing_length / acceleration)"},
+    {"numerics", "", "density_diffusion", member(&Numerics::density_diffusion), "",
+     Default::by_scheme(0.1, 0.0), between(0, 1), "delta of the density diffusion; 0 turns it off"},
+    {"numerics", "", "gradient_correction", member(&Numerics::gradient_correction), "", true, anything(),
+     "corrected kernel gradient in the continuity equation"},
+    {"numerics", "", "advection_tensor", member(&Numerics::advection_tensor), "", true, anything(),
+     "momentum carried by the transport velocity"},
+    {"numerics", "", "wall_dummies", member(&Numerics::wall_dummies), "",
+     Default::by_scheme<std::string>("curve", "lattice"), one_of({"curve", "lattice"}),
+     "wall particles in layers along the wall, or on the lattice of the fluid"},
+
+    {"start", "", "arrangement", member(&Start::arrangement), "", word("lattice"),
+     one_of({"lattice", "jittered", "relaxed"}), "of the fluid's particles"},
+    {"start", "", "jitter", member(&Start::jitter), "", 0.2, between(0, 0.5),
+     "largest displacement per axis over particle spacing, when jittered"},
+    {"start", "", "seed", member(&Start::seed), "", std::int64_t{1}, at_least(0),
+     "of the random displacements"},
+    {"start", "", "velocity", member(&Start::velocity), "", word("rest"),
+     one_of({"rest", "shear", "taylor_green"}), "of the fluid"},
+    {"start", "", "speed", member(&Start::speed), "m/s", 0.0, anything(),
+     "of the shear at the domain's top, or Taylor-Green's peak; 0 at rest, and only then"},
+
+    {"walls", "", "name", member(&WallScene::name), "", required, identifier(), "unique"},
+    {"walls", "", "shape", member(&WallScene::shape), "", required,
+     one_of({"line", "cosine", "gaussian", "arc", "sine", "profile"}), "of the curve"},
+    {"walls", "", "fluid_side", member(&WallScene::fluid_side), "", required,
+     one_of({"above", "below", "left", "right"}), "of the curve; left and right for vertical lines only"},
+    {"walls", "", "velocity", member(&WallScene::velocity), "m/s", origin, anything(), "translation [x, y]"},
+    {"walls", "line", "from", member(&LineShape::from), "m", required, anything(), "one end [x, y]"},
+    {"walls", "line", "to", member(&LineShape::to), "m", required, anything(), "the other end [x, y]"},
+    {"walls", "cosine", "mean_height", member(&CosineShape::mean_height), "m", required, anything(),
+     "y = mean_height + amplitude cos(2 pi (x - crest) / wavelength)"},
+    {"walls", "cosine", "amplitude", member(&CosineShape::amplitude), "m", required, anything(),
+     "of the cosine, of either sign"},
+    {"walls", "cosine", "wavelength", member(&CosineShape::wavelength), "m", required, positive(),
+     "from crest to crest"},
+    {"walls", "cosine", "crest", member(&CosineShape::crest), "m", 0.0, anything(), "x of a crest"},
+    {"walls", "gaussian", "base_height", member(&GaussianShape::base_height), "m", required, anything(),
+     "y = base_height + amplitude exp(-(x - centre)^2 / (2 width^2))"},
+    {"walls", "gaussian", "amplitude", member(&GaussianShape::amplitude), "m", required, anything(),
+     "height of the asperity, or depth if negative"},
+    {"walls", "gaussian", "centre", member(&GaussianShape::centre), "m", required, anything(),
+     "x of the peak"},
+    {"walls", "gaussian", "width", member(&GaussianShape::width), "m", required, positive(),
+     "standard deviation"},
+    {"walls", "arc", "base_height", member(&ArcShape::base_height), "m", required, anything(),
+     "y of the line that the arc stands on"},
+    {"walls", "arc", "centre", member(&ArcShape::centre), "m", required, anything(), "x of the arc's middle"},
+    {"walls", "arc", "radius", member(&ArcShape::radius), "m", required, positive(), "of the circle"},
+    {"walls", "arc", "angle", member(&ArcShape::angle), "rad", required, positive_up_to(std::numbers::pi),
+     "central angle of the arc"},
+    {"walls", "arc", "upward", member(&ArcShape::upward), "", required, anything(), "bulges towards +y"},
+    {"walls", "sine", "base_height", member(&SineShape::base_height), "m", required, anything(),
+     "y of the line that the sine interrupts"},
+    {"walls", "sine", "amplitude", member(&SineShape::amplitude), "m", required, anything(),
+     "of the sine, of either sign"},
+    {"walls", "sine", "centre", member(&SineShape::centre), "m", required, anything(), "x of its middle"},
+    {"walls", "sine", "length", member(&SineShape::length), "m", required, positive(), "of its one period"},
+    {"walls", "profile", "file", member(&ProfileShape::file), "", required, anything(),
+     "CSV of two columns x, y in m, x ascending, # before a comment; relative to the scene's folder"},
+    {"walls", "profile", "base_height", member(&ProfileShape::base_height), "m", 0.0, anything(),
+     "added to the file's heights"},
+
+    {"probes", "", "name", member(&ProbeScene::name), "", required, identifier(), "unique"},
+    {"probes", "", "kind", member(&ProbeScene::kind), "", required, one_of({"wall", "point", "grid"}),
+     "pressure and shear along a wall, or pressure and velocity at a point or on a grid over the domain"},
+    {"probes", "wall", "wall", member(&WallProbe::wall), "", required, identifier(), "name of the wall"},
+    {"probes", "wall", "points", member(&WallProbe::points), "", std::int64_t{100}, between(1, 100'000),
+     "evenly spaced along the wall"},
+    {"probes", "point", "position", member(&PointProbe::position), "m", required, anything(),
+     "[x, y], in the domain"},
+    {"probes", "grid", "points", member(&GridProbe::points), "", required, between(1, 10'000),
+     "numbers of points [x, y]"},
+
+    {"output", "", "end_time", member(&Output::end_time), "s", required, positive(), "of the simulation"},
+    {"output", "", "series_samples", member(&Output::series_samples), "", std::int64_t{200},
+     between(2, 1'000'000),
+     "of energies, momenta and point probes: evenly spaced times, start and end included"},
+    {"output", "", "probe_samples", member(&Output::probe_samples), "", std::int64_t{10}, between(1, 100'000),
+     "of wall and grid probes: evenly spaced times up to the end"},
+    {"output", "", "snapshot_times", member(&Output::snapshot_times), "s", std::vector<double>{}, at_least(0),
+     "ascending, at which all particles are written; the end is always added"},
+};
+
+} // namespace
+
+const std::vector<Section>& sections() {
+    return section_table;
+}
+
+const std::vector<Parameter>& parameters() {
+    return parameter_table;
+}
+
+} // namespace slurry

@@ -1,0 +1,149 @@
+#include "solver/scene/read_scene.hpp"
+
+#include "solver/scene/checks.hpp"
+#include "solver/scene/conversion.hpp"
+#include "solver/scene/document.hpp"
+#include "solver/scene/overrides.hpp"
+#include "solver/scene/profile.hpp"
+#include "solver/scene/refusal.hpp"
+#include "solver/scene/resolved.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace slurry {
+namespace {
+
+constexpr std::size_t largest_scene = std::size_t{1} << 20U;
+
+// Fills a scene from a document, table by table in the order of sections().
+class Reader {
+  public:
+    Reader(const Node& document, Places& places) : document_(document), places_(places) {
+        places_.add("", document.place);
+    }
+
+    [[nodiscard]] Scene read() {
+        for (const Section& section : sections()) {
+            const Entry* entry = find(std::get<NodeTable>(document_.value), section.name);
+            if (!section.repeated()) {
+                read_table(section, entry == nullptr ? Node{document_.place, NodeTable{}} : entry->node, 0);
+            } else if (entry != nullptr) {
+                for (const Node& table : std::get<std::vector<Node>>(entry->node.value)) {
+                    section.append(scene_);
+                    read_table(section, table, section.count(scene_) - 1);
+                }
+            }
+        }
+        return std::move(scene_);
+    }
+
+  private:
+    void read_table(const Section& section, const Node& node, std::size_t index) {
+        const auto& table = std::get<NodeTable>(node.value);
+        const std::string chosen = selected(section, table);
+        check_keys(section, table, chosen);
+        std::string prefix(section.name);
+        for (const Parameter* parameter : parameters_of(section.name)) {
+            if (!parameter->belongs_to(chosen)) {
+                continue;
+            }
+            read_key(*parameter, node, index, fmt::format("{}.{}", prefix, parameter->key));
+            if (section.repeated() && parameter->key == "name") {
+                prefix += "." + std::get<std::string>(parameter->get(scene_, index));
+                places_.add(prefix + ".name", find(table, "name")->node.place);
+            }
+        }
+        places_.add(prefix, node.place);
+    }
+
+    // The choice that decides which keys a table has, empty when there is none or it is not there.
+    static std::string selected(const Section& section, const NodeTable& table) {
+        const Entry* entry = section.selector.empty() ? nullptr : find(table, section.selector);
+        if (entry == nullptr) {
+            return {};
+        }
+        const std::string address = fmt::format("{}.{}", section.name, section.selector);
+        return std::get<std::string>(
+            to_value(*find_parameter(section.name, section.selector), entry->node, address));
+    }
+
+    static void check_keys(const Section& section, const NodeTable& table, const std::string& chosen) {
+        for (const Entry& entry : table) {
+            if (find_parameter(section.name, entry.key, chosen) != nullptr) {
+                continue;
+            }
+            std::vector<std::string_view> keys;
+            for (const Parameter* parameter : parameters_of(section.name)) {
+                if (parameter->belongs_to(chosen)) {
+                    keys.push_back(parameter->key);
+                }
+            }
+            refuse(
+                entry.place,
+                fmt::format("the unknown key {} in [{}]{}", printable(entry.key), section.name,
+                            chosen.empty() ? "" : fmt::format(" with {} = \"{}\"", section.selector, chosen)),
+                fmt::format("{}", fmt::join(keys, ", ")), nearest_address(section.name, entry.key, chosen));
+        }
+    }
+
+    void read_key(const Parameter& parameter, const Node& table, std::size_t index,
+                  const std::string& address) {
+        if (const Entry* entry = find(std::get<NodeTable>(table.value), parameter.key)) {
+            parameter.set(scene_, index, to_value(parameter, entry->node, address));
+            places_.add(address, entry->node.place);
+        } else if (const std::optional<Value>& fallback = parameter.fallback.of(scene_.scheme)) {
+            parameter.set(scene_, index, *fallback);
+        } else {
+            refuse(table.place, fmt::format("no {}", address),
+                   fmt::format("{}: it has no default", parameter.allowed_text()));
+        }
+    }
+
+    const Node& document_;
+    Places& places_;
+    Scene scene_;
+};
+
+// Reads the profiles, whose paths are relative to the scene's folder and may not leave it.
+void load_profiles(Scene& scene, const Places& places) {
+    for (WallScene& wall : scene.walls) {
+        auto* profile = std::get_if<ProfileShape>(&wall.shape);
+        if (profile == nullptr) {
+            continue;
+        }
+        const std::string& place = places.of("walls." + wall.name + ".file");
+        const std::filesystem::path normal = profile->file.lexically_normal();
+        if (profile->file.is_relative() && (normal.empty() || *normal.begin() == "..")) {
+            refuse(place, fmt::format("the file \"{}\"", printable(profile->file.string())),
+                   "a file in the scene's folder or below, or an absolute path");
+        }
+        profile->file = profile->file.is_relative() ? scene.path.parent_path() / normal : normal;
+        profile->points = read_profile(profile->file, place);
+    }
+}
+
+} // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& path,
+                  std::span<const std::string> overrides) {
+    Node document = parse_document(text, printable(path.string()));
+    check_structure(document);
+    for (const std::string& change : overrides) {
+        apply_override(document, change);
+    }
+    Places places;
+    Scene scene = Reader(document, places).read();
+    scene.path = path;
+    check_scene(scene, places);
+    scene.resolved_text =
+        resolved_text(scene); // before the profiles' paths are made relative to this process
+    load_profiles(scene, places);
+    return scene;
+}
+
+Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+    return parse_scene(read_bounded_file(path, largest_scene, printable(path.string())), path, overrides);
+}
+
+} // namespace slurry

@@ -1,0 +1,130 @@
+#pragma once
+// A scene as the solver sees it: plain values in SI units, already validated by read_scene.
+#include "solver/vector.hpp"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace slurry {
+
+// wang2014 is the paper's scheme as written; standard (spelled "default" in a scene file) adds what section
+// "Schemes" of the README lists. A scheme only sets the defaults of the keys of `numerics`.
+enum class Scheme : std::uint8_t { standard, wang2014 };
+enum class DummyLayout : std::uint8_t { curve, lattice };
+enum class Arrangement : std::uint8_t { lattice, jittered, relaxed };
+enum class InitialVelocity : std::uint8_t { rest, shear, taylor_green };
+enum class FluidSide : std::uint8_t { above, below, left, right };
+
+struct Domain {
+    Vector lower = Vector::Zero();
+    Vector upper = Vector::Zero();
+    std::array<bool, 2> periodic{false, false};
+
+    [[nodiscard]] Vector size() const { return upper - lower; }
+};
+
+struct Fluid {
+    double density = 0;           // kg/m3
+    double dynamic_viscosity = 0; // Pa s
+    Vector body_force = Vector::Zero(); // m/s2, per mass
+
+    [[nodiscard]] double kinematic_viscosity() const { return dynamic_viscosity / density; }
+};
+
+struct Numerics {
+    double particle_spacing = 0;          // m
+    double smoothing_ratio = 1;           // smoothing length / particle spacing
+    double sound_speed = 0;               // m/s
+    double background_pressure_ratio = 1; // p_b / (rho0 c^2); 0 = no transport velocity
+    double acoustic_cfl = 0.25;           // the three factors of Eq. 2.35
+    double viscous_cfl = 0.25;
+    double force_cfl = 0.25;
+    double density_diffusion = 0; // delta of delta-SPH; 0 = off
+    bool gradient_correction = true;
+    bool advection_tensor = true;
+    DummyLayout wall_dummies = DummyLayout::curve;
+
+    [[nodiscard]] double smoothing_length() const { return smoothing_ratio * particle_spacing; }
+};
+
+struct Start {
+    Arrangement arrangement = Arrangement::lattice;
+    double jitter = 0.2; // largest displacement per axis / particle spacing, for `jittered`
+    std::uint64_t seed = 1;
+    InitialVelocity velocity = InitialVelocity::rest;
+    double speed = 0; // m/s: of the shear at the domain's top, or Taylor-Green's peak
+};
+
+// Shapes. All but Line are graphs y(x) over the whole width of the domain.
+struct LineShape {
+    Vector from = Vector::Zero();
+    Vector to = Vector::Zero();
+};
+struct CosineShape { // y = mean_height + amplitude cos(2 pi (x - crest) / wavelength)
+    double mean_height, amplitude, wavelength, crest;
+};
+struct GaussianShape { // y = base_height + amplitude exp(-(x - centre)^2 / (2 width^2))
+    double base_height, amplitude, centre, width;
+};
+struct ArcShape { // the line y = base_height with an arc of the given radius and central angle; height > 0 bulges up
+    double base_height, centre, radius, angle;
+    bool upward;
+};
+struct SineShape { // the line y = base_height with one period of a sine of the given length about the centre
+    double base_height, amplitude, centre, length;
+};
+struct ProfileShape { // y(x) through the two columns of a CSV file
+    std::filesystem::path file; // absolute, or relative to the scene file's folder (already resolved)
+    double base_height;         // added to the file's heights
+    std::vector<Vector> points; // as read, x ascending
+};
+using Shape = std::variant<LineShape, CosineShape, GaussianShape, ArcShape, SineShape, ProfileShape>;
+
+struct WallScene {
+    std::string name;
+    Shape shape;
+    FluidSide fluid_side = FluidSide::above;
+    Vector velocity = Vector::Zero(); // m/s, translation
+};
+
+struct WallProbe { // pressure and shear at evenly spaced points along a wall (they move with the wall)
+    std::string wall;
+    int points = 100;
+};
+struct PointProbe { // pressure and velocity at a fixed point
+    Vector position = Vector::Zero();
+};
+struct GridProbe { // pressure and velocity on a regular grid over the domain; NaN outside the fluid
+    std::array<int, 2> points{0, 0};
+};
+struct ProbeScene {
+    std::string name;
+    std::variant<WallProbe, PointProbe, GridProbe> kind;
+};
+
+struct Output {
+    double end_time = 0;
+    int series_samples = 200;           // energies, momenta and point probes: evenly spaced times, start and end included
+    int probe_samples = 10;             // wall and grid probes: evenly spaced times up to the end
+    std::vector<double> snapshot_times; // all particles; the end is always added
+};
+
+struct Scene {
+    std::string title;
+    Scheme scheme = Scheme::standard;
+    Domain domain;
+    Fluid fluid;
+    Numerics numerics;
+    Start start;
+    std::vector<WallScene> walls;
+    std::vector<ProbeScene> probes;
+    Output output;
+    std::filesystem::path path; // the scene file
+    std::string resolved_text;  // the scene as TOML with every key, defaults and --set values filled in
+};
+
+} // namespace slurry

@@ -1,0 +1,43 @@
+#include "solver/terms/selection.hpp"
+
+#include <fmt/format.h>
+
+namespace slurry {
+
+TermSelection select_terms(const Scene& scene) {
+    const Numerics& numerics = scene.numerics;
+    TermSelection terms;
+    terms.gradient_correction = numerics.gradient_correction;
+    terms.density_diffusion = numerics.density_diffusion > 0;
+    terms.hydrostatic_diffusion = terms.density_diffusion && scene.fluid.body_force.squaredNorm() > 0;
+    terms.viscosity = scene.fluid.dynamic_viscosity > 0;
+    terms.transport_velocity = numerics.background_pressure_ratio > 0;
+    terms.advection_tensor = terms.transport_velocity && numerics.advection_tensor;
+    terms.walls = !scene.walls.empty();
+    return terms;
+}
+
+std::vector<TermReason> explain_terms(const Scene& scene) {
+    const TermSelection terms = select_terms(scene);
+    const Numerics& numerics = scene.numerics;
+    return {
+        {"continuity (2.14)", true, "always"},
+        {"gradient correction (2.21, 2.22)", terms.gradient_correction,
+         fmt::format("numerics.gradient_correction = {}", numerics.gradient_correction)},
+        {"density diffusion (Molteni & Colagrossi 2009)", terms.density_diffusion,
+         fmt::format("numerics.density_diffusion = {}", numerics.density_diffusion)},
+        {"hydrostatic part of the density diffusion", terms.hydrostatic_diffusion,
+         terms.hydrostatic_diffusion ? "fluid.body_force is not zero" : "no body force, or no density diffusion"},
+        {"pressure force (2.15)", true, "always"},
+        {"viscous force (2.15)", terms.viscosity,
+         fmt::format("fluid.dynamic_viscosity = {} Pa s", scene.fluid.dynamic_viscosity)},
+        {"transport velocity (2.18, 2.19)", terms.transport_velocity,
+         fmt::format("numerics.background_pressure_ratio = {}", numerics.background_pressure_ratio)},
+        {"advection tensor (2.20)", terms.advection_tensor,
+         terms.transport_velocity ? fmt::format("numerics.advection_tensor = {}", numerics.advection_tensor)
+                                  : std::string("no transport velocity")},
+        {"wall extrapolation (2.16, 2.17)", terms.walls, fmt::format("{} wall(s)", scene.walls.size())},
+    };
+}
+
+} // namespace slurry

@@ -1,0 +1,30 @@
+#pragma once
+// Which terms a scene needs. The loops are composed from these at compile time (solver/loop/pair_interactions.cpp).
+#include "solver/scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace slurry {
+
+struct TermSelection {
+    bool gradient_correction = false;
+    bool density_diffusion = false;
+    bool hydrostatic_diffusion = false;
+    bool viscosity = false;
+    bool transport_velocity = false;
+    bool advection_tensor = false;
+    bool walls = false;
+};
+
+struct TermReason {
+    std::string term;
+    bool runs;
+    std::string reason;
+};
+
+TermSelection select_terms(const Scene& scene);
+// One entry per term, for `slurry info`.
+std::vector<TermReason> explain_terms(const Scene& scene);
+
+} // namespace slurry

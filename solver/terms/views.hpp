@@ -1,0 +1,74 @@
+#pragma once
+// The names of a row's fields in each pass, and what each pass gives back.
+#include "solver/loop/row.hpp"
+
+namespace slurry {
+
+// Density rate (half step). fluid_volume is 0 for dummies: terms between fluid particles only are weighted with it.
+template <class P> struct RateView {
+    Fields<P> field;
+    const P& x() const { return field[0]; }
+    const P& y() const { return field[1]; }
+    const P& velocity_x() const { return field[2]; }
+    const P& velocity_y() const { return field[3]; }
+    const P& volume() const { return field[4]; } // m / rho
+    const P& density() const { return field[5]; }
+    const P& fluid_volume() const { return field[6]; }
+};
+template <class P> struct Rate {
+    P density_rate; // kg/(m3 s)
+};
+template <class Real> struct RateCoefficients {
+    Real diffusivity;                // delta h c, m2/s
+    Real density_slope_x;            // hydrostatic: rho0 f / c^2, kg/m4
+    Real density_slope_y;
+};
+
+// Volumes (full step).
+template <class P> struct VolumeView {
+    Fields<P> field;
+    const P& x() const { return field[0]; }
+    const P& y() const { return field[1]; }
+    const P& weight() const { return field[2]; } // volume / particle_spacing^2 for dummies, 1 for fluid
+};
+template <class P> struct Volume {
+    P volume; // m2
+};
+template <class Real> struct VolumeCoefficients {
+    Real self_kernel; // W(0)
+};
+
+// Forces and wall extrapolation (full step).
+template <class P> struct ForceView {
+    Fields<P> field;
+    const P& x() const { return field[0]; }
+    const P& y() const { return field[1]; }
+    const P& velocity_x() const { return field[2]; }
+    const P& velocity_y() const { return field[3]; }
+    const P& shift_momentum_x() const { return field[4]; } // rho (advection velocity - velocity); 0 for dummies
+    const P& shift_momentum_y() const { return field[5]; }
+    const P& volume() const { return field[6]; }
+    const P& volume_pressure() const { return field[7]; } // volume times pressure
+};
+template <class P> struct Acceleration {
+    P x, y;                       // of the momentum equation, m/s2
+    P background_x, background_y; // by the background pressure, m/s2
+};
+template <class Real> struct ForceCoefficients {
+    Real inverse_mass;
+    Real dynamic_viscosity;
+    Real background_pressure;
+};
+
+// Extrapolation to dummies: v_f and p_f averaged with the kernel as weight.
+template <class P> struct Extrapolation {
+    P velocity_x, velocity_y; // Shepard mean of the fluid's velocity
+    P pressure;
+    P kernel_sum; // 0: no fluid within reach, and the means are 0
+};
+template <class Real> struct ExtrapolationCoefficients {
+    Real mass;
+    Real force_x, force_y; // f - a_wall
+};
+
+} // namespace slurry

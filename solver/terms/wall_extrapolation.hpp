@@ -1,0 +1,53 @@
+#pragma once
+// What the fluid near a wall hands to the wall's dummies, Eqs. 2.16 and 2.17 [wang2014, adami2012].
+#include "solver/loop/pair.hpp"
+#include "solver/terms/views.hpp"
+
+namespace slurry {
+
+// sum_f v_f W_df / sum_f W_df; the caller reflects it about the wall's velocity (Eq. 2.16).
+struct VelocityExtrapolation {
+    template <class P> struct Sums {
+        P kernel{}, velocity_x{}, velocity_y{};
+    };
+    template <class P, class View>
+    static void add(Sums<P>& sums, const Pair<P>& pair, const View& /*unused*/, const View& fluid) {
+        sums.kernel += pair.kernel;
+        sums.velocity_x += pair.kernel * fluid.velocity_x();
+        sums.velocity_y += pair.kernel * fluid.velocity_y();
+    }
+    template <class P, class View, class Real>
+    static void finish(const Sums<P>& sums, const View& /*unused*/, const ExtrapolationCoefficients<Real>& /*unused*/,
+                       Extrapolation<P>& result) {
+        const P zero{};
+        const P inverse = sums.kernel > zero ? 1 / sums.kernel : zero;
+        result.kernel_sum = sums.kernel;
+        result.velocity_x = sums.velocity_x * inverse;
+        result.velocity_y = sums.velocity_y * inverse;
+    }
+};
+
+// Eq. 2.17: (sum_f p_f W_df + (f - a_wall) . sum_f rho_f r_df W_df) / sum_f W_df
+struct PressureExtrapolation {
+    template <class P> struct Sums {
+        P weight{}, pressure{}, lever_x{}, lever_y{};
+    };
+    template <class P>
+    static void add(Sums<P>& sums, const Pair<P>& pair, const ForceView<P>& /*unused*/, const ForceView<P>& fluid) {
+        const P number_weight = pair.kernel / fluid.volume();
+        sums.weight += pair.kernel;
+        sums.pressure += number_weight * fluid.volume_pressure();
+        sums.lever_x += number_weight * pair.dx;
+        sums.lever_y += number_weight * pair.dy;
+    }
+    template <class P, class Real>
+    static void finish(const Sums<P>& sums, const ForceView<P>& /*unused*/,
+                       const ExtrapolationCoefficients<Real>& coefficients, Extrapolation<P>& result) {
+        const P zero{};
+        const P total = sums.pressure + coefficients.mass * (coefficients.force_x * sums.lever_x +
+                                                             coefficients.force_y * sums.lever_y);
+        result.pressure = sums.weight > zero ? total / sums.weight : zero;
+    }
+};
+
+} // namespace slurry

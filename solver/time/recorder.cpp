@@ -1,0 +1,176 @@
+#include "solver/time/recorder.hpp"
+
+#include "solver/probes/grid_probe.hpp"
+#include "solver/probes/point_probe.hpp"
+#include "solver/probes/totals.hpp"
+#include "solver/probes/wall_probe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace slurry {
+
+namespace {
+
+// The values in the order of the start, which sorting during the run does not change.
+std::vector<double> by_identity(const FluidParticles& fluid, const std::vector<double>& values) {
+    std::vector<double> ordered(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        ordered[fluid.identity[i]] = values[i];
+    }
+    return ordered;
+}
+
+void wrap(std::vector<double>& positions, double lower, double upper) {
+    for (double& position : positions) {
+        position -= std::floor((position - lower) / (upper - lower)) * (upper - lower);
+    }
+}
+
+// The fluid in the order of the start, positions wrapped into the domain.
+struct OrderedFluid {
+    std::vector<double> x, y, velocity_x, velocity_y, density, pressure, volume;
+
+    OrderedFluid(const FluidParticles& fluid, const Domain& domain)
+        : x(by_identity(fluid, fluid.x)), y(by_identity(fluid, fluid.y)),
+          velocity_x(by_identity(fluid, fluid.velocity_x)), velocity_y(by_identity(fluid, fluid.velocity_y)),
+          density(by_identity(fluid, fluid.density)), pressure(by_identity(fluid, fluid.pressure)),
+          volume(by_identity(fluid, fluid.volume)) {
+        if (domain.periodic[0]) {
+            wrap(x, domain.lower.x(), domain.upper.x());
+        }
+        if (domain.periodic[1]) {
+            wrap(y, domain.lower.y(), domain.upper.y());
+        }
+    }
+    [[nodiscard]] FluidView view() const { return {x, y, velocity_x, velocity_y, pressure}; }
+};
+
+// Steps at `samples` evenly spaced times up to the end, the start included if wanted.
+std::vector<bool> evenly_due(long steps, int samples, bool from_start) {
+    std::vector<bool> due(static_cast<std::size_t>(steps) + 1, false);
+    const int intervals = from_start ? std::max(1, samples - 1) : samples;
+    for (int k = from_start ? 0 : 1; k <= intervals; ++k) {
+        due[static_cast<std::size_t>(std::lround(static_cast<double>(steps) * k / intervals))] = true;
+    }
+    return due;
+}
+
+std::vector<double> doubles_of(std::vector<double> first, const std::vector<double>& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+} // namespace
+
+Recorder::Recorder(const Scene& scene, const Region& region, ResultFile& file, long steps, double time_step)
+    : scene_(scene), region_(region), file_(file), series_due_(evenly_due(steps, scene.output.series_samples, true)),
+      probes_due_(evenly_due(steps, scene.output.probe_samples, false)),
+      snapshot_due_(static_cast<std::size_t>(steps) + 1, false) {
+    for (const double time : scene.output.snapshot_times) {
+        const long step = std::min(steps, std::lround(time / time_step));
+        snapshot_due_[static_cast<std::size_t>(step)] = true;
+    }
+    snapshot_due_.back() = true;
+    begin_probes();
+}
+
+void Recorder::begin_probes() {
+    for (const ProbeScene& probe : scene_.probes) {
+        if (const auto* on_wall = std::get_if<WallProbe>(&probe.kind)) {
+            const auto wall = std::find_if(region_.walls().begin(), region_.walls().end(),
+                                           [&](const Wall& candidate) { return candidate.name() == on_wall->wall; });
+            WallSamples samples{&probe, &*wall, wall->sample(on_wall->points)};
+            std::vector<double> arc_length, x, y;
+            for (const WallPoint& point : samples.points) {
+                arc_length.push_back(point.arc_length);
+                x.push_back(point.position.x());
+                y.push_back(point.position.y());
+            }
+            file_.add_probe_constant(probe.name, "arc_length", "m", arc_length);
+            file_.add_probe_constant(probe.name, "x", "m", x);
+            file_.add_probe_constant(probe.name, "y", "m", y);
+            walls_.push_back(std::move(samples));
+        } else if (const auto* grid = std::get_if<GridProbe>(&probe.kind)) {
+            const GridAxes axes = grid_axes(scene_.domain, grid->points);
+            file_.add_probe_constant(probe.name, "x", "m", axes.x);
+            file_.add_probe_constant(probe.name, "y", "m", axes.y);
+        }
+    }
+}
+
+void Recorder::record(const Particles& particles, long step) {
+    const auto index = static_cast<std::size_t>(step);
+    if (series_due_[index]) {
+        record_series(particles);
+    }
+    if (probes_due_[index]) {
+        record_walls_and_grids(particles);
+    }
+    if (snapshot_due_[index]) {
+        record_snapshot(particles);
+    }
+}
+
+void Recorder::record_series(const Particles& particles) {
+    const OrderedFluid fluid(particles.fluid, scene_.domain);
+    const Totals totals = fluid_totals(fluid.velocity_x, fluid.velocity_y, fluid.density, particles.fluid.mass,
+                                       scene_.fluid.density);
+    file_.begin_sample(particles.time);
+    file_.add_sample("kinetic_energy", "J/m", totals.kinetic_energy);
+    file_.add_sample("momentum_x", "kg/s", totals.momentum.x());
+    file_.add_sample("momentum_y", "kg/s", totals.momentum.y());
+    file_.add_sample("mean_density", "kg/m3", totals.mean_density);
+    file_.add_sample("largest_speed", "m/s", totals.largest_speed);
+    file_.add_sample("largest_density_error", "1", totals.largest_density_error);
+    const ParticleFinder finder(fluid.view(), scene_.domain, scene_.numerics.particle_spacing);
+    for (const ProbeScene& probe : scene_.probes) {
+        if (const auto* point = std::get_if<PointProbe>(&probe.kind)) {
+            const PointValues values = probe_point(finder, region_, point->position, particles.time);
+            file_.begin_probe_sample(probe.name, particles.time);
+            file_.add_probe_row(probe.name, "pressure", "Pa", std::span(&values.pressure, 1));
+            file_.add_probe_row(probe.name, "velocity_x", "m/s", std::span(&values.velocity_x, 1));
+            file_.add_probe_row(probe.name, "velocity_y", "m/s", std::span(&values.velocity_y, 1));
+        }
+    }
+}
+
+void Recorder::record_walls_and_grids(const Particles& particles) {
+    const OrderedFluid fluid(particles.fluid, scene_.domain);
+    const ParticleFinder finder(fluid.view(), scene_.domain, scene_.numerics.particle_spacing);
+    for (const WallSamples& samples : walls_) {
+        const WallValues values =
+            probe_wall(finder, *samples.wall, samples.points, particles.time, scene_.fluid.dynamic_viscosity);
+        file_.begin_probe_sample(samples.probe->name, particles.time);
+        file_.add_probe_row(samples.probe->name, "pressure", "Pa", values.pressure);
+        file_.add_probe_row(samples.probe->name, "shear", "Pa", values.shear);
+    }
+    for (const ProbeScene& probe : scene_.probes) {
+        if (const auto* grid = std::get_if<GridProbe>(&probe.kind)) {
+            const GridValues values =
+                probe_grid(finder, region_, grid_axes(scene_.domain, grid->points), particles.time);
+            file_.begin_probe_sample(probe.name, particles.time);
+            file_.add_probe_row(probe.name, "pressure", "Pa", values.pressure);
+            file_.add_probe_row(probe.name, "velocity_x", "m/s", values.velocity_x);
+            file_.add_probe_row(probe.name, "velocity_y", "m/s", values.velocity_y);
+        }
+    }
+}
+
+void Recorder::record_snapshot(const Particles& particles) {
+    const OrderedFluid fluid(particles.fluid, scene_.domain);
+    const DummyParticles& dummies = particles.dummies;
+    std::vector<int> wall(fluid.x.size(), -1);
+    wall.insert(wall.end(), dummies.wall.begin(), dummies.wall.end());
+    const auto x = doubles_of(fluid.x, dummies.x);
+    const auto y = doubles_of(fluid.y, dummies.y);
+    const auto velocity_x = doubles_of(fluid.velocity_x, dummies.velocity_x);
+    const auto velocity_y = doubles_of(fluid.velocity_y, dummies.velocity_y);
+    const auto density = doubles_of(fluid.density, std::vector<double>(dummies.size(), scene_.fluid.density));
+    const auto pressure = doubles_of(fluid.pressure, dummies.pressure);
+    const auto volume = doubles_of(fluid.volume, dummies.volume);
+    file_.add_snapshot({particles.time, x, y, velocity_x, velocity_y, density, pressure, volume, wall});
+}
+
+} // namespace slurry

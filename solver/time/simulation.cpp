@@ -1,0 +1,111 @@
+#include "solver/time/simulation.hpp"
+
+#include "solver/loop/interactions.hpp"
+#include "solver/output/phase_clock.hpp"
+#include "solver/output/progress.hpp"
+#include "solver/output/result_file.hpp"
+#include "solver/particles/arrangement.hpp"
+#include "solver/terms/selection.hpp"
+#include "solver/time/recorder.hpp"
+#include "solver/time/time_step.hpp"
+#include "solver/time/velocity_verlet.hpp"
+#include "solver/time/watchdog.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+namespace slurry {
+
+namespace {
+
+// The walls' distances make a check as dear as a few steps; this many in a run cost about 1 %.
+constexpr long checks_per_run = 50;
+
+// Steps of equal length that end exactly at the end time.
+long step_count(const Scene& scene) {
+    return std::max(1L, static_cast<long>(std::ceil(scene.output.end_time / largest_time_step(scene) * (1 - 1e-12))));
+}
+
+void write_run_attributes(ResultFile& file, const Particles& particles, long steps, double time_step, int threads,
+                          const PhaseClock& clock) {
+    const double seconds = clock.elapsed();
+    const auto fluid = static_cast<double>(particles.fluid.size());
+    const auto dummies = static_cast<double>(particles.dummies.size());
+    file.set_attribute("fluid_particles", fluid);
+    file.set_attribute("dummy_particles", dummies);
+    file.set_attribute("steps", static_cast<double>(steps));
+    file.set_attribute("time_step", time_step);
+    file.set_attribute("end_time", particles.time);
+    file.set_attribute("threads", threads);
+    file.set_attribute("wall_seconds", seconds);
+    file.set_attribute("particle_steps_per_second", (fluid + dummies) * static_cast<double>(steps) / seconds);
+    file.set_attribute("particle_mass", particles.fluid.mass);
+    for (const PhaseClock::Phase& phase : clock.phases()) {
+        std::string name = "seconds_" + phase.name;
+        std::replace(name.begin(), name.end(), ' ', '_');
+        file.set_attribute(name, phase.seconds);
+    }
+}
+
+} // namespace
+
+RunSummary run_scene(const Scene& scene, const RunOptions& options) {
+    omp_set_num_threads(options.threads);
+    PhaseClock clock;
+    const Region region(scene);
+    ResultFile file(options.folder, scene, SLURRY_VERSION, options.overwrite);
+    Particles particles;
+    {
+        const PhaseClock::Scope scope(clock, "start");
+        particles = arrange_particles(scene, region);
+    }
+    const auto interactions = make_interactions(scene);
+    const long steps = step_count(scene);
+    const double time_step = scene.output.end_time / static_cast<double>(steps);
+    const double sound_speed = scene.numerics.sound_speed;
+    const long check_interval = std::max(1L, steps / checks_per_run);
+    Recorder recorder(scene, region, file, steps, time_step);
+    {
+        Progress progress(std::cout, progress_style(options.quiet, STDOUT_FILENO), scene.output.end_time);
+        prepare_first_step(particles, *interactions, scene.fluid, sound_speed, clock);
+        recorder.record(particles, 0);
+        for (long step = 1; step <= steps; ++step) {
+            advance(particles, *interactions, scene.fluid, sound_speed, time_step, clock);
+            const PhaseClock::Scope scope(clock, "output and checks");
+            if (step % check_interval == 0 || step == steps) {
+                check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing, step);
+            }
+            recorder.record(particles, step);
+            progress.update(particles.time, step);
+        }
+    }
+    write_run_attributes(file, particles, steps, time_step, options.threads, clock);
+    const RunSummary summary{file.finish(), steps};
+    if (!options.quiet) {
+        const auto count = particles.fluid.size() + particles.dummies.size();
+        fmt::print(std::cout, "{}\n{}", summary.result.string(),
+                   clock.summary(static_cast<std::int64_t>(count), steps));
+    }
+    return summary;
+}
+
+std::string describe_scene(const Scene& scene) {
+    const Region region(scene);
+    const Particles particles = arrange_particles(scene, region);
+    std::string text = fmt::format("fluid particles   {}\ndummy particles   {}\ntime step         {:.4g} s\n"
+                                   "steps             {}\nneighbour reach   {:.4g} m\nterms\n",
+                                   particles.fluid.size(), particles.dummies.size(), largest_time_step(scene),
+                                   step_count(scene), 3 * scene.numerics.smoothing_length());
+    for (const TermReason& term : explain_terms(scene)) {
+        text += fmt::format("  {:4} {:48} {}\n", term.runs ? "on" : "off", term.term, term.reason);
+    }
+    return text;
+}
+
+} // namespace slurry

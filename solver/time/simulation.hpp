@@ -1,0 +1,28 @@
+#pragma once
+// A whole run: from a scene to its result file.
+#include "solver/scene/scene.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace slurry {
+
+struct RunOptions {
+    std::filesystem::path folder;
+    int threads = 1;
+    bool quiet = false;
+    bool overwrite = true;
+};
+
+struct RunSummary {
+    std::filesystem::path result;
+    long steps = 0;
+};
+
+// Runs the scene and writes result.h5 and result.xdmf into the folder. Throws GeometryError, OutputError, RunError.
+RunSummary run_scene(const Scene& scene, const RunOptions& options);
+
+// What `slurry info` prints: particles, steps, and which terms run and why. Throws GeometryError.
+std::string describe_scene(const Scene& scene);
+
+} // namespace slurry

@@ -1,0 +1,18 @@
+#pragma once
+// One time step of the modified velocity-Verlet scheme, Algorithm 1 and Eqs. 2.29 to 2.34 [wang2014, adami2013].
+#include "solver/loop/interactions.hpp"
+#include "solver/output/phase_clock.hpp"
+#include "solver/particles/particles.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace slurry {
+
+// Accelerations of the start; needed once before the first step.
+void prepare_first_step(Particles& particles, Interactions& interactions, const Fluid& fluid, double sound_speed,
+                        PhaseClock& clock);
+
+// Advances the particles by one step of the given length, s.
+void advance(Particles& particles, Interactions& interactions, const Fluid& fluid, double sound_speed,
+             double time_step, PhaseClock& clock);
+
+} // namespace slurry

@@ -1,0 +1,62 @@
+#include "tests/solver/scene/scene_folder.hpp"
+
+namespace slurry::test {
+namespace {
+
+class Profile : public SceneFolder {
+  protected:
+    [[nodiscard]] std::vector<Vector> points(const std::string& csv) const {
+        write("profile.csv", csv);
+        return std::get<ProfileShape>(read(full_scene).walls[5].shape).points;
+    }
+    [[nodiscard]] std::string refusal_of(const std::string& csv) const {
+        write("profile.csv", csv);
+        return refusal(full_scene);
+    }
+};
+
+TEST_F(Profile, ReadsTwoColumns) {
+    const std::vector<Vector> expected{Vector(-1e-6, 2), Vector(0, 2.5)};
+    EXPECT_EQ(points("-1e-6,2\n0,2.5"), expected);
+    EXPECT_EQ(points("\xEF\xBB\xBF# x, y\r\n\r\n -1e-6 ,\t2 # first\r\n  # note\r\n0,2.5\r\n"), expected);
+}
+
+TEST_F(Profile, RefusesWithFileAndLine) {
+    EXPECT_EQ(refusal_of("0, 1\nx, y\n"),
+              "profile.csv:2: found \"x, y\", allowed two finite numbers x, y (m), or # before a comment");
+    for (const char* line :
+         {"1", "1,", ",1", "1,2,3", "1;2", "1 2", "1,nan", "inf,1", "1,1e999", "1,2x", "1,0x10", "+1,2"}) {
+        EXPECT_TRUE(
+            refusal_of(std::string("# comment\n0, 1\n\n") + line).starts_with("profile.csv:4: found "))
+            << line;
+    }
+    EXPECT_EQ(refusal_of("0,1\n2,1\n2,3\n"), "profile.csv:3: found x = 2 after 2, allowed ascending x");
+}
+
+TEST_F(Profile, RefusesTooFewPoints) {
+    EXPECT_EQ(refusal_of("# nothing\n"),
+              "scene.toml:64:8: found profile.csv with 0 points, allowed at least 2");
+    EXPECT_EQ(refusal_of("0, 1\n"), "scene.toml:64:8: found profile.csv with 1 points, allowed at least 2");
+}
+
+TEST_F(Profile, StaysInTheFolderUnlessAbsolute) {
+    std::filesystem::create_directory(path("below"));
+    write("below/pad.csv", "0,1\n1,1\n");
+    const auto file = [&](const std::string& name) {
+        return std::get<ProfileShape>(
+                   read(full_scene, {"walls.profile.file=\"" + name + "\""}).walls[5].shape)
+            .file;
+    };
+    EXPECT_EQ(file("below/pad.csv"), path("below/pad.csv"));
+    EXPECT_EQ(file("below/../profile.csv"), path("profile.csv"));
+    EXPECT_EQ(file(path("profile.csv").string()), path("profile.csv"));
+    const std::string escape = "../" + path("").parent_path().filename().string() + "/profile.csv";
+    EXPECT_NE(refusal(full_scene, {"walls.profile.file=\"" + escape + "\""})
+                  .find("allowed a file in the scene's folder"),
+              std::string::npos);
+    EXPECT_NE(refusal(full_scene, {"walls.profile.file=below"}).find("found no regular file"),
+              std::string::npos);
+}
+
+} // namespace
+} // namespace slurry::test

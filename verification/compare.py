@@ -1,0 +1,185 @@
+"""The one comparer: metrics, the verdict on a check, and the observed order of convergence.
+
+A check passes only if `isfinite(error) and error <= tolerance`, and, where a band is stated, the observed
+order over the spacings lies inside it. Missing, short, NaN or non-monotonic data never become a number: they
+raise DataError, whose text is the check's reason for failing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+KINDS = ("exact", "finite-element", "published", "independent")
+# A reference has to be ten times better than a tolerance of 1 %; issue 2 asks for 0.1 % of every one.
+LARGEST_REFERENCE_ERROR = 1e-3
+
+Array = NDArray[np.float64]
+
+
+class DataError(ValueError):
+    """Data that cannot be compared; the text is one line that says why."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check of one variant at one level, its choices by scheme, level and variant already made."""
+
+    quantity: str
+    at: str  # "particles", "wall:<probe>" or "series"
+    field: str
+    metric: str
+    tolerance: float
+    kind: str
+    why: str
+    order_band: tuple[float, float] | None = None
+    subtract_mean: bool = False
+    time: float | None = None  # s; None: the end
+    from_time: float | None = None  # s; series only: the start of the window
+    against: str | None = None  # another variant; None: the reference
+    known_shortfall: str | None = None
+
+    @property
+    def scale(self) -> str:
+        return SCALES[self.metric] + (", means subtracted from both" if self.subtract_mean else "")
+
+
+@dataclass
+class CheckResult:
+    """The measured side of a check. `tolerance` is None at coarser spacings, which serve the order only."""
+
+    check: Check
+    value: float
+    tolerance: float | None
+    source: str = ""
+    order: float | None = None
+    reason: str = ""
+
+    @property
+    def passed(self) -> bool:
+        if self.reason or not math.isfinite(self.value):
+            return False
+        if self.tolerance is None:
+            return True
+        return self.value <= self.tolerance and in_band(self.order, self.check.order_band)
+
+    @property
+    def known_shortfall(self) -> bool:
+        """True for a failure that checks.toml owns up to; a run that gave no number is never excused."""
+        return bool(self.check.known_shortfall) and not self.passed and math.isfinite(self.value)
+
+    def explanation(self) -> str:
+        """Why the check fails, in one line; empty if it passes."""
+        if self.passed:
+            return ""
+        if self.reason:
+            return self.reason
+        if not math.isfinite(self.value):
+            return f"the error is {self.value}"
+        parts = []
+        if self.tolerance is not None and self.value > self.tolerance:
+            parts.append(f"error {self.value:.3g} above tolerance {self.tolerance:.3g}")
+        if not in_band(self.order, self.check.order_band):
+            low, high = self.check.order_band or (math.nan, math.nan)
+            measured = "unknown" if self.order is None else f"{self.order:.2f}"
+            parts.append(f"observed order {measured} outside [{low:g}, {high:g}]")
+        return "; ".join(parts)
+
+
+def in_band(order: float | None, band: tuple[float, float] | None) -> bool:
+    """Without a band any order will do; with one, an unknown or NaN order is outside."""
+    return band is None or (order is not None and band[0] <= order <= band[1])
+
+
+def require_series(name: str, values: ArrayLike, times: ArrayLike | None = None) -> Array:
+    """Values as floats, refused when empty, not finite, or (with times) not one for each increasing time."""
+    array = np.asarray(values, dtype=float)
+    if array.size == 0:
+        raise DataError(f"{name} holds no data")
+    if not np.all(np.isfinite(array)):
+        raise DataError(f"{name} holds {np.count_nonzero(~np.isfinite(array))} values that are not finite")
+    if times is not None:
+        stamps = require_series(f"the times of {name}", times)
+        if len(stamps) != len(array):
+            raise DataError(f"{name} has {len(array)} samples for {len(stamps)} times")
+        if np.any(np.diff(stamps) <= 0):
+            raise DataError(f"the times of {name} do not increase")
+    return array
+
+
+def _ratio(error: float, scale: float) -> float:
+    if not scale > 0:
+        raise DataError(f"the scale of the error is {scale:g}")
+    return float(error / scale)
+
+
+def relative_l1(measured: Array, reference: Array) -> float:
+    lengths = [np.linalg.norm(a.reshape(len(a), -1), axis=1).sum() for a in (measured - reference, reference)]
+    return _ratio(lengths[0], lengths[1])
+
+
+def relative_l2(measured: Array, reference: Array) -> float:
+    return _ratio(np.linalg.norm(measured - reference), np.linalg.norm(reference))
+
+
+def relative_peak(measured: Array, reference: Array) -> float:
+    lengths = [np.linalg.norm(a.reshape(len(a), -1), axis=1) for a in (measured - reference, reference)]
+    return _ratio(np.sqrt(np.mean(lengths[0] ** 2)), lengths[1].max())
+
+
+def relative_scalar(measured: Array, reference: Array) -> float:
+    if measured.size != 1:
+        raise DataError(f"relative_scalar compares single values, not {measured.size}")
+    return _ratio(abs(measured - reference).item(), abs(reference).item())
+
+
+def largest_deviation(measured: Array, reference: Array) -> float:
+    return _ratio(np.abs(measured - reference).max(), np.abs(reference).max())
+
+
+METRICS: dict[str, Callable[[Array, Array], float]] = {
+    "relative_l1": relative_l1,
+    "relative_l2": relative_l2,
+    "relative_peak": relative_peak,
+    "relative_scalar": relative_scalar,
+    "largest_deviation": largest_deviation,
+}
+SCALES = {
+    "relative_l1": "sum of the reference's magnitudes",
+    "relative_l2": "L2 norm of the reference",
+    "relative_peak": "largest magnitude of the reference at that time (root mean square error over it)",
+    "relative_scalar": "the reference's value",
+    "largest_deviation": "largest magnitude of the reference",
+}
+
+
+def measure(check: Check, measured: ArrayLike, reference: ArrayLike) -> float:
+    """The check's error; shapes (n,) or (n, 2), equal. Raises DataError for data that cannot be compared."""
+    ours = np.atleast_1d(require_series("the result", measured))
+    truth = np.atleast_1d(require_series("the reference", reference))
+    if ours.shape != truth.shape:
+        raise DataError(f"the result has shape {ours.shape}, the reference {truth.shape}")
+    if check.subtract_mean:
+        ours, truth = ours - ours.mean(axis=0), truth - truth.mean(axis=0)
+    return METRICS[check.metric](ours, truth)
+
+
+def observed_order(spacings: Sequence[float], errors: Sequence[float]) -> float | None:
+    """Slope of log error over log spacing by least squares; None with fewer than three usable points."""
+    if len(spacings) < 3 or len(spacings) != len(errors):
+        return None
+    if not all(math.isfinite(e) and e > 0 for e in errors) or len(set(spacings)) != len(spacings):
+        return None
+    return float(np.polyfit(np.log(spacings), np.log(errors), 1)[0])
+
+
+def require_reference_quality(error_estimate: float) -> None:
+    """Refuses a reference that has not shown itself to be within 0.1 %."""
+    if not error_estimate <= LARGEST_REFERENCE_ERROR:
+        raise DataError(
+            f"the reference's own error is {error_estimate:.3g}, above {LARGEST_REFERENCE_ERROR:g}"
+        )
