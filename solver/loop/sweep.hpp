@@ -28,27 +28,41 @@ template <class... Terms> struct Composition {
     }
 };
 
-template <class Real, int W, class Kernel, template <class> class View, template <class> class Result, class Coefficients,
-          class... Terms, class StoreResult>
-void sweep(Composition<Terms...> /*which*/, const NeighbourList& list, std::span<const Row<Real>> rows,
-           const KernelScale<Real>& scale, const Coefficients& coefficients, StoreResult&& store_result) {
+// One block of W targets. Flattened: a call inside the loop would send its vectors through memory.
+template <class Real, int W, class Kernel, template <class> class View, template <class> class Result,
+          class Coefficients, class... Terms>
+[[gnu::flatten]] Result<Pack<Real, W>> sweep_block(Composition<Terms...> /*which*/, const NeighbourList& list,
+                                                   std::size_t block, const Row<Real>* rows,
+                                                   const KernelScale<Real>& scale_in,
+                                                   const Coefficients& coefficients) {
     using P = Pack<Real, W>;
+    const KernelScale<Real> scale = scale_in;
+    const View<P> i{gather<Real, W>(rows, list.targets(block))};
+    AllSums<P, Terms...> sums{};
+    const std::uint32_t* neighbours = list.neighbours(block);
+    const std::uint32_t* const end = neighbours + list.count(block) * static_cast<std::size_t>(W);
+    for (; neighbours != end; neighbours += W) {
+        const View<P> j{gather<Real, W>(rows, neighbours)};
+        const Pair<P> pair = make_pair<Kernel>(scale, P(i.x() - j.x()), P(i.y() - j.y()));
+        Composition<Terms...>::add(sums, pair, i, j);
+    }
+    Result<P> result{};
+    Composition<Terms...>::finish(sums, i, coefficients, result);
+    return result;
+}
+
+// Calls store_result(first target, results of W targets) for every block. A thread owns whole blocks, so that nothing
+// depends on the number of threads.
+template <class Real, int W, class Kernel, template <class> class View, template <class> class Result,
+          class Coefficients, class... Terms, class StoreResult>
+void sweep(Composition<Terms...> which, const NeighbourList& list, std::span<const Row<Real>> rows,
+           const KernelScale<Real>& scale, const Coefficients& coefficients, StoreResult&& store_result) {
     const auto blocks = static_cast<std::ptrdiff_t>(list.block_count());
 #pragma omp parallel for schedule(static)
-    for (std::ptrdiff_t block = 0; block < blocks; ++block) {
-        const auto b = static_cast<std::size_t>(block);
-        const View<P> i{gather<Real, W>(rows.data(), list.targets(b))};
-        AllSums<P, Terms...> sums{};
-        const std::uint32_t* neighbours = list.neighbours(b);
-        const std::size_t count = list.count(b);
-        for (std::size_t k = 0; k < count; ++k, neighbours += W) {
-            const View<P> j{gather<Real, W>(rows.data(), neighbours)};
-            const Pair<P> pair = make_pair<Kernel>(scale, i.x() - j.x(), i.y() - j.y());
-            Composition<Terms...>::add(sums, pair, i, j);
-        }
-        Result<P> result{};
-        Composition<Terms...>::finish(sums, i, coefficients, result);
-        store_result(b * static_cast<std::size_t>(W), result);
+    for (std::ptrdiff_t signed_block = 0; signed_block < blocks; ++signed_block) {
+        const auto block = static_cast<std::size_t>(signed_block);
+        store_result(block * static_cast<std::size_t>(W),
+                     sweep_block<Real, W, Kernel, View, Result>(which, list, block, rows.data(), scale, coefficients));
     }
 }
 

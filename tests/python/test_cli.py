@@ -73,6 +73,11 @@ series_samples = 11
 probe_samples = 4
 snapshot_times = [0.0]
 """
+PAD = """\
+shape = "line"
+from = [0.0, 0.0]
+to = [1e-5, 0.0]
+"""
 WAVY_PAD = """\
 shape = "cosine"
 mean_height = {mean}
@@ -236,14 +241,8 @@ def test_bad_command_line(scene: Path, words: list[str]) -> None:
         pytest.param("density = 1000.0", "density = = 1", "", True, id="syntax"),
         pytest.param("end_time = 1e-6\n", "", "end_time", False, id="missing-key"),
         pytest.param('wall = "wafer"', 'wall = "waver"', "wafer", True, id="unknown-wall"),
-        pytest.param("particle_spacing = 1e-6", "particle_spacing = 4e-6", "3", False, id="narrow-gap"),
-        pytest.param(
-            'shape = "line"\nfrom = [0.0, 0.0]\nto = [1e-5, 0.0]\n',
-            WAVY_PAD.format(mean="9e-6"),
-            "cross",
-            False,
-            id="crossing-walls",
-        ),
+        pytest.param(PAD, WAVY_PAD.format(mean="4e-6"), "gap", False, id="narrow-gap"),
+        pytest.param(PAD, WAVY_PAD.format(mean="9e-6"), "cross", False, id="crossing-walls"),
     ],
 )
 def test_bad_scene(scene: Path, command: str, old: str, new: str, named: str, has_line: bool) -> None:
