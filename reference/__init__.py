@@ -1,6 +1,6 @@
 """Reference solutions to hold the solver against, read from the same scene files.
 
-`load` is all that a comparison needs; docstrings of the modules give equations, discretisation and convergence.
+`load` is all that a comparison needs; the modules' docstrings give equations, discretisation, convergence.
 """
 
 import importlib

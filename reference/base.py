@@ -1,14 +1,14 @@
 """What every reference offers, how its identity is computed and how a costly one is kept on disk.
 
-A reference is identified by a digest of everything that can change its numbers: its name, the physics of the scene
-(domain, fluid, walls; never the particles), the scripts that make it and the versions of the libraries they use.
-A file is written whole or not at all, and read only if digest, scene, shapes and checksum are those expected.
+A reference is identified by a digest of everything that can change its numbers: its name, the physics of the
+scene (domain, fluid, walls; never the particles), the scripts that make it and the versions of their
+libraries. A file is written whole or not at all, and read only if digest, scene, shapes and checksum are as
+expected.
 """
 
 import hashlib
 import json
 import os
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -28,8 +28,8 @@ class ReferenceError(ValueError):
 class Reference(Protocol):
     """A solution to compare with, in SI units and in the frame of the scene (the laboratory).
 
-    Positions x, y are arrays of one shape (n,); `wall` is a wall's name, and x along it is measured where the wall
-    stood at time 0. The wall shear is the tangential traction of the wall on the fluid, tangent towards +x.
+    Positions x, y are arrays of one shape (n,); `wall` is a wall's name, and x along it is measured where the
+    wall stood at time 0. The wall shear is the tangential traction of the wall on the fluid, towards +x.
     """
 
     kind: str  # "exact" or "finite-element"
@@ -72,25 +72,24 @@ def _checksum(arrays: Mapping[str, Array]) -> str:
 
 
 def write_arrays(file: Path, digest: str, problem: Mapping[str, object], arrays: Mapping[str, Array]) -> None:
-    """Writes `arrays` beside the identity they belong to. Raises ReferenceError where the folder cannot be written."""
-    handle = None
+    """Writes `arrays` beside the identity they belong to. Raises ReferenceError where that is impossible."""
+    part = file.with_name(f"{file.name}.{os.getpid()}.part")
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=file.parent, prefix=file.name, suffix=".part")
-        os.close(handle)
-        with h5py.File(name, "w") as out:
-            out.attrs.update(digest=digest, problem=canonical(problem), checksum=_checksum(arrays))
-            for key, array in arrays.items():
-                out[key] = np.asarray(array, dtype=float)
-        os.replace(name, file)
+        try:
+            with h5py.File(part, "w") as out:
+                out.attrs.update(digest=digest, problem=canonical(problem), checksum=_checksum(arrays))
+                for key, array in arrays.items():
+                    out[key] = np.asarray(array, dtype=float)
+            part.replace(file)
+        finally:
+            part.unlink(missing_ok=True)
     except OSError as error:
-        if handle is not None:
-            Path(name).unlink(missing_ok=True)
         raise ReferenceError(f"{file}: the reference cannot be stored: {error}") from error
 
 
 def read_arrays(file: Path, digest: str, problem: Mapping[str, object]) -> dict[str, Array]:
-    """The arrays of a stored reference. Raises ReferenceError on another geometry, a damaged file or a NaN."""
+    """The arrays of a stored reference. Raises ReferenceError: another geometry, a damaged file, a NaN."""
     advice = "delete it and run `make reference`"
     try:
         with h5py.File(file, "r") as stored:

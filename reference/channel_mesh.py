@@ -1,8 +1,10 @@
 """The channel bottom(x) <= y <= top(x) as the image of a rectangle, exactly, and fields on it.
 
-The rectangle (x, eta), 0 <= eta <= 1, is meshed by rectangles and mapped by Phi(x, eta) = (x, bottom + eta (top -
-bottom)); no element approximates a wall. scikit-fem (gustafsson2020) sees Phi as the mapping of its elements.
-Mesh lines stand on the kinks of the walls and crowd towards them, where a corner makes the solution singular.
+The rectangle (x, eta), 0 <= eta <= 1, is meshed by rectangles and mapped by
+    Phi(x, eta) = (x, bottom + eta (top - bottom)),
+so that no element approximates a wall; scikit-fem (gustafsson2020) sees Phi as the mapping of its elements.
+Mesh lines stand on the kinks of the walls and crowd towards them, where a corner can make the solution
+singular.
 """
 
 import math
@@ -34,11 +36,6 @@ class Channel:
 
     def gap(self, x: Array) -> Array:
         return self.top(x) - self.bottom(x)
-
-    def eta(self, x: Array, y: Array) -> Array:
-        """Height as a fraction of the gap; points beyond a wall are taken at the wall."""
-        bottom = self.bottom(x)
-        return np.clip((y - bottom) / (self.top(x) - bottom), 0.0, 1.0)
 
 
 class ChannelMapping(Mapping):
@@ -88,17 +85,18 @@ def mesh_lines(channel: Channel, per_gap: float, smallest: float, refinement: in
         for kink, _ in channel.kinks:
             away = np.abs(x - kink)
             away = np.minimum(away, channel.length - away)
-            size = np.minimum(size, 0.5 * away + smallest)
+            size = np.minimum(size, 1.5 * away + smallest)
         return size
 
     def eta_size(eta: Array) -> Array:
         size = np.full(np.shape(eta), 1 / per_gap)
         for _, top in channel.kinks:
-            size = np.minimum(size, 0.5 * (1 - eta if top else eta) + smallest)
+            size = np.minimum(size, 1.5 * (1 - eta if top else eta) + smallest)
         return size
 
     inner = sorted({x for x, _ in channel.kinks if channel.start < x < end})
-    return _joined([channel.start, *inner, end], x_size, refinement), _joined([0.0, 1.0], eta_size, refinement)
+    x_lines = _joined([channel.start, *inner, end], x_size, refinement)
+    return x_lines, _joined([0.0, 1.0], eta_size, refinement)
 
 
 def lobatto_points(degree: int) -> Array:
@@ -151,7 +149,7 @@ class Polynomials:
 class Elements:
     """Continuous elements of one degree over the mapped mesh, periodic in x.
 
-    An element's first local coordinate runs along eta and its second along x, as MeshQuad.init_tensor numbers them.
+    An element's first local coordinate runs along eta, its second along x: so init_tensor numbers them.
     """
 
     def __init__(self, mesh: MeshQuad1DG, mapping: ChannelMapping, degree: int, points: int):

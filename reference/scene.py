@@ -1,7 +1,7 @@
 """The physics of a scene file, as a reference needs it: domain, fluid, walls and start; never the numerics.
 
-The solver validates a scene as a whole. Here only the tables read are checked, so that a misspelt key or override can
-never be left out of a reference in silence.
+The solver validates a scene as a whole. Here only the tables read are checked, so that a misspelt key or
+override can never be left out of a reference in silence.
 """
 
 import math
@@ -99,7 +99,8 @@ class _Table:
     def choice(self, key: str, allowed: tuple[str, ...], default: object = REQUIRED) -> str:
         value = self.take(key, default)
         if value not in allowed:
-            raise ReferenceError(f"{self.path}: {self.name}.{key} = {value!r} must be one of {', '.join(allowed)}")
+            found = f"{self.path}: {self.name}.{key} = {value!r}"
+            raise ReferenceError(f"{found} must be one of {', '.join(allowed)}")
         return str(value)
 
     def flag(self, key: str) -> bool:
@@ -132,7 +133,8 @@ def override(tables: dict, address: str, value: object, path: Path) -> None:
         if isinstance(node, list):
             names = [entry.get("name") for entry in node]
             if part not in names:
-                raise ReferenceError(f"{path}: {address}: no {part!r} here, only {', '.join(map(str, names))}")
+                known = ", ".join(map(str, names))
+                raise ReferenceError(f"{path}: {address}: no {part!r} here, only {known}")
             node = node[names.index(part)]
         else:
             node = node.setdefault(part, {})
@@ -175,7 +177,7 @@ def _read_wall(path: Path, content: object, number: int) -> WallScene:
 
 
 def read_scene(path: Path, overrides: Mapping[str, object]) -> Scene:
-    """Raises ReferenceError where the file cannot be read or a key is missing, unknown or of the wrong type."""
+    """Raises ReferenceError: a file that cannot be read, a key missing, unknown or of the wrong type."""
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:

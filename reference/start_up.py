@@ -16,6 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
+from reference import base
+from reference import scene as scenes
 from reference.base import Array, ReferenceError, digest_of
 from reference.scene import Scene, WallScene
 
@@ -46,7 +48,7 @@ class StartUp:
     scene: Scene
     name: str
     script: Path
-    source: str
+    source: str = "series solution (batchelor1967, Sec. 4.3)"
     kind: str = "exact"
     error_estimate: float = 1e-14
     seconds: float = 0.0
@@ -58,7 +60,7 @@ class StartUp:
         self.y0 = self.lower.parameters["from"][1]
         self.height = self.upper.parameters["from"][1] - self.y0
         self.decay = math.pi**2 * self.scene.kinematic_viscosity / self.height**2
-        scripts = (Path(__file__), self.script)
+        scripts = (Path(base.__file__), Path(scenes.__file__), Path(__file__), self.script)
         self.digest = digest_of(self.name, self.scene.flow(), scripts)
         self.seconds = time.perf_counter() - started
 

@@ -1,7 +1,7 @@
 """Start-up of Couette flow: two plane walls that move along x, the fluid between them at rest at t = 0.
 
     u_inf = V0 + (V1 - V0) s,    a_n = 2 / (n pi) [V0 - (-1)^n V1]
-in the series of reference/start_up.py (batchelor1967, Sec. 4.3). Exact: no discretisation, error of rounding only.
+in the series of reference/start_up.py (batchelor1967, Sec. 4.3). Exact: no discretisation, only rounding.
 """
 
 import math
@@ -37,4 +37,4 @@ class Couette(StartUp):
 
 
 def create(scene: Scene, cache: Path) -> Couette:
-    return Couette(scene, "start_up_couette", Path(__file__), "series solution (batchelor1967, Sec. 4.3)")
+    return Couette(scene, "start_up_couette", Path(__file__))

@@ -1,7 +1,7 @@
 """Start-up of plane Poiseuille flow: walls at rest, a body force f per mass along x switched on at t = 0.
 
     u_inf = f h^2 / (2 nu) s (1 - s),    a_n = 4 f h^2 / (nu pi^3 n^3)  for odd n, 0 for even n
-in the series of reference/start_up.py (batchelor1967, Sec. 4.3). Exact: no discretisation, error of rounding only.
+in the series of reference/start_up.py (batchelor1967, Sec. 4.3). Exact: no discretisation, only rounding.
 """
 
 import math
@@ -37,4 +37,4 @@ class Poiseuille(StartUp):
 
 
 def create(scene: Scene, cache: Path) -> Poiseuille:
-    return Poiseuille(scene, "start_up_poiseuille", Path(__file__), "series solution (batchelor1967, Sec. 4.3)")
+    return Poiseuille(scene, "start_up_poiseuille", Path(__file__))

@@ -2,8 +2,9 @@
 
     u = -U exp(-b t) cos(k x) sin(k y),    v = U exp(-b t) sin(k x) cos(k y),    k = 2 pi / L,  b = 2 nu k^2,
     p = -rho U^2 / 4 exp(-2 b t) [cos(2 k x) + cos(2 k y)],    E = rho U^2 A / 4 exp(-2 b t)
-solve the incompressible Navier-Stokes equations exactly (taylor1937): the pressure gradient balances the convection,
-and the viscous term is -b times the velocity. L is the width of the box; its area A must hold whole vortices.
+solve the incompressible Navier-Stokes equations exactly (taylor1937): the pressure gradient balances
+convection, and the viscous term is -b times the velocity. L is the width of the box; its area A must hold
+whole vortices.
 """
 
 import math
@@ -13,6 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
+from reference import base
+from reference import scene as scenes
 from reference.base import Array, ReferenceError, digest_of
 from reference.scene import Scene
 
@@ -32,14 +35,16 @@ class TaylorGreen:
         width, height = scene.size
         if scene.periodic != "xy" or scene.walls or scene.body_force != (0.0, 0.0):
             raise scene.refuse("taylor_green needs a domain periodic in x and y, no wall and no body force")
-        if round(height / width) < 1 or not math.isclose(height / width, round(height / width), rel_tol=1e-12):
+        boxes = height / width
+        if round(boxes) < 1 or not math.isclose(boxes, round(boxes), rel_tol=1e-12):
             raise scene.refuse("taylor_green needs a domain as high as wide, or a whole multiple")
         if scene.start_velocity != "taylor_green" or scene.start_speed == 0:
             raise scene.refuse("taylor_green needs start.velocity = 'taylor_green' and a start.speed")
         self.wavenumber = 2 * math.pi / width
         self.decay = 2 * scene.kinematic_viscosity * self.wavenumber**2
+        scripts = (Path(base.__file__), Path(scenes.__file__), Path(__file__))
         problem = {**scene.flow(), "speed": scene.start_speed}
-        self.digest = digest_of("taylor_green", problem, (Path(__file__),))
+        self.digest = digest_of("taylor_green", problem, scripts)
         self.seconds = time.perf_counter() - started
 
     def velocity(self, x: Array, y: Array, t: float) -> Array:

@@ -85,7 +85,9 @@ def _arc(scene: Scene, wall: WallScene) -> Graph:
     radius, sign = p["radius"], 1.0 if p["upward"] else -1.0
     half = radius * math.sin(p["angle"] / 2)
     if radius <= 0 or not 0 < p["angle"] < math.pi or 2 * half >= scene.size[0]:
-        raise scene.refuse(f"walls.{wall.name}: an arc needs a radius > 0, an angle in (0, pi) and room in the domain")
+        raise scene.refuse(
+            f"walls.{wall.name}: an arc needs radius > 0, 0 < angle < pi and room in the domain"
+        )
     drop = radius * math.cos(p["angle"] / 2)
 
     def rise(d: Array) -> Array:
@@ -112,17 +114,19 @@ def _sine(scene: Scene, wall: WallScene) -> Graph:
     def tilt(d: Array) -> Array:
         return np.where(np.abs(d) < half, k * np.cos(k * d), 0.0)
 
+    base, amplitude = p["base_height"], p["amplitude"]
     height, slope = _feature(
-        scene, p["centre"], lambda d: p["base_height"] + p["amplitude"] * wave(d), lambda d: p["amplitude"] * tilt(d)
+        scene, p["centre"], lambda d: base + amplitude * wave(d), lambda d: amplitude * tilt(d)
     )
     return Graph(wall, height, slope, _within(scene, (p["centre"] - half, p["centre"] + half)))
 
 
 def _profile(scene: Scene, wall: WallScene) -> Graph:
     x, y = np.array(wall.parameters["points"]).T
-    width = scene.size[0]
-    if not math.isclose(x[-1] - x[0], width, rel_tol=1e-9) or not math.isclose(y[0], y[-1], abs_tol=1e-9 * np.ptp(y)):
-        raise scene.refuse(f"walls.{wall.name}: a profile must span one period and end at the height it starts from")
+    slack = 1e-9 * scene.size[0]
+    spans = abs(x[0] - scene.lower[0]) <= slack and abs(x[-1] - scene.upper[0]) <= slack
+    if not spans or abs(y[0] - y[-1]) > slack:
+        raise scene.refuse(f"walls.{wall.name}: a profile must span the domain and end as high as it starts")
     y[-1] = y[0]
     spline = CubicSpline(x, y + wall.parameters["base_height"], bc_type="periodic")
     return Graph(wall, spline, spline.derivative())

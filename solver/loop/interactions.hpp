@@ -18,7 +18,7 @@ class Interactions {
     virtual void refresh_neighbours(Particles& particles) = 0;
     // Eq. 2.14 with the scene's corrections, into fluid.density_rate.
     virtual void compute_density_rate(Particles& particles) = 0;
-    // V = 1 / sum W (below Eq. 2.8), into fluid.volume.
+    // m / rho or 1 / sum W (below Eq. 2.8), as the scene says, into fluid.volume.
     virtual void compute_volumes(Particles& particles) = 0;
     // Eqs. 2.16 and 2.17, into the dummies' velocity and pressure.
     virtual void extrapolate_to_walls(Particles& particles) = 0;

@@ -15,6 +15,8 @@
 #include "solver/terms/viscous_force.hpp"
 #include "solver/terms/wall_extrapolation.hpp"
 
+#include <algorithm>
+
 namespace slurry {
 
 namespace {
@@ -71,8 +73,9 @@ template <class Real, int W> class PairInteractions final : public Interactions 
                                 fluid.density[i], volume, 0);
             },
             [&](std::size_t d) {
-                return make_row(dummies.x[d], dummies.y[d], dummies.velocity_x[d], dummies.velocity_y[d],
-                                dummies.volume[d], fluid_.density, 0, 0);
+                const Vector velocity = continuity_velocity(dummies, d);
+                return make_row(dummies.x[d], dummies.y[d], velocity.x(), velocity.y(), dummies.volume[d],
+                                fluid_.density, 0, 0);
             });
         if (terms_.gradient_correction) {
             rate_with<CorrectedContinuity>(fluid);
@@ -84,6 +87,11 @@ template <class Real, int W> class PairInteractions final : public Interactions 
     void compute_volumes(Particles& particles) override {
         const DummyParticles& dummies = particles.dummies;
         FluidParticles& fluid = particles.fluid;
+        if (numerics_.particle_volume == ParticleVolume::mass_over_density) {
+            std::transform(fluid.density.begin(), fluid.density.end(), fluid.volume.begin(),
+                           [&](double density) { return fluid.mass / density; });
+            return;
+        }
         const double cell = numerics_.particle_spacing * numerics_.particle_spacing;
         fill_rows(
             particles, [&](std::size_t i) { return make_row(fluid.x[i], fluid.y[i], 1, 0, 0, 0, 0, 0); },
@@ -136,6 +144,12 @@ template <class Real, int W> class PairInteractions final : public Interactions 
     using Kernel = QuinticSpline;
 
     [[nodiscard]] std::span<const Row<Real>> rows() const { return rows_; }
+
+    [[nodiscard]] Vector continuity_velocity(const DummyParticles& dummies, std::size_t d) const {
+        return numerics_.wall_continuity == WallContinuity::wall_velocity
+                   ? dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])]
+                   : Vector(dummies.velocity_x[d], dummies.velocity_y[d]);
+    }
 
     static Row<Real> make_row(std::convertible_to<double> auto... values) { return {{static_cast<Real>(values)...}}; }
 

@@ -40,6 +40,7 @@ void place_dummies(DummyParticles& dummies, const Scene& scene, const Region& re
     std::size_t d = 0;
     for (std::size_t w = 0; w < by_wall.size(); ++w) {
         dummies.wall_velocity.push_back(region.walls()[w].velocity());
+        dummies.wall_drift.push_back(region.walls()[w].displacement(1));
         for (const Dummy& dummy : by_wall[w]) {
             dummies.start_x[d] = dummy.position.x();
             dummies.start_y[d] = dummy.position.y();

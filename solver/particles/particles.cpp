@@ -16,9 +16,9 @@ void DummyParticles::resize(std::size_t count) {
 
 void DummyParticles::move_to(double time) {
     for (std::size_t d = 0; d < size(); ++d) {
-        const Vector& velocity = wall_velocity[static_cast<std::size_t>(wall[d])];
-        x[d] = start_x[d] + velocity.x() * time;
-        y[d] = start_y[d] + velocity.y() * time;
+        const Vector& drift = wall_drift[static_cast<std::size_t>(wall[d])];
+        x[d] = start_x[d] + drift.x() * time;
+        y[d] = start_y[d] + drift.y() * time;
     }
 }
 

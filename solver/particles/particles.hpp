@@ -38,6 +38,7 @@ struct DummyParticles {
     std::vector<double> pressure;               // extrapolated, Eq. 2.17
     std::vector<int> wall;                      // index into the region's walls
     std::vector<Vector> wall_velocity;          // per wall, m/s
+    std::vector<Vector> wall_drift;             // per wall, m/s: 0 where a wall slides along itself between fixed ends
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
     void resize(std::size_t count);

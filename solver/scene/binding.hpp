@@ -126,8 +126,10 @@ template <class... Alternatives> struct Conversion<std::variant<Alternatives...>
     static constexpr Kind kind = Kind::choice;
     static Value get(const Member& member) { return static_cast<std::int64_t>(member.index()); }
     static void set(Member& member, const Value& value) {
-        static const std::vector<Member> alternatives{Member(Alternatives{})...};
-        member = alternatives.at(static_cast<std::size_t>(std::get<std::int64_t>(value)));
+        std::int64_t position = std::get<std::int64_t>(value);
+        ((position-- == 0 ? static_cast<void>(member.template emplace<Alternatives>())
+                          : static_cast<void>(0)),
+         ...);
     }
 };
 

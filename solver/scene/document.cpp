@@ -3,25 +3,31 @@
 #include "solver/scene/refusal.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <functional>
 
-// toml++ takes a level of stack for each level of nesting; a scene needs three.
+// toml++ takes a level of stack for each level of nesting; a scene needs three. Its assertions abort on
+// faulty keys that it reports properly without them.
 #define TOML_MAX_NESTED_VALUES 8
+#define TOML_ASSERT(expr) static_assert(true)
 #include <toml++/toml.h>
 
 namespace slurry {
 namespace {
 
-// Names the place of a region of the source.
-using Placer = std::function<std::string(const toml::source_region&)>;
+// Names the place of a line and column.
+using Placer = std::function<std::string(std::size_t line, std::size_t column)>;
 
 Node convert(const toml::node& source, const Placer& placer) {
-    Node node{placer(source.source()), Node::Date{}};
+    const auto place = [&](const toml::source_region& region) {
+        return placer(region.begin.line, region.begin.column);
+    };
+    Node node{place(source.source()), Node::Date{}};
     if (const toml::table* table = source.as_table()) {
         NodeTable entries;
         for (const auto& [key, value] : *table) {
-            entries.push_back({std::string(key.str()), placer(key.source()), convert(value, placer)});
+            entries.push_back({std::string(key.str()), place(key.source()), convert(value, placer)});
         }
         node.value = std::move(entries);
     } else if (const toml::array* array = source.as_array()) {
@@ -42,16 +48,39 @@ Node convert(const toml::node& source, const Placer& placer) {
     return node;
 }
 
-// The same for dotted keys, whose depth toml++ does not limit. Dots of strings and comments count, too, which
-// is the reason for the generous limit.
-void check_depth(std::string_view text, const std::string& place) {
-    constexpr int most_dots = 250;
+// Refuses what toml++ 3.3 does not survive: characters beyond ASCII outside strings and comments (undefined
+// behaviour) and dotted keys of any depth (the stack). Strings of several lines are refused to keep strings
+// easy to recognise.
+void check_lexically(std::string_view text, const Placer& placer) {
+    constexpr int most_dots = 16;
+    std::size_t line = 1;
+    std::size_t line_begin = 0;
     int dots = 0;
-    for (const char character : text) {
-        if (std::string_view("\n,=[]{}").find(character) != std::string_view::npos) {
+    char until = '\0'; // the end of the string or comment that we are in
+    for (std::size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i) {
+        const char character = text[i];
+        if (character == '\n') {
+            ++line;
+            line_begin = i + 1;
+            dots = 0;
+            until = '\0';
+        } else if (until != '\0') {
+            i += until == '"' && character == '\\' ? 1 : 0;
+            until = character == until ? '\0' : until;
+        } else if (character == '#') {
+            until = '\n';
+        } else if (character == '"' || character == '\'') {
+            until = character;
+            if (text.substr(i, 3) == std::string(3, character)) {
+                refuse(placer(line, i + 1 - line_begin), "a string of several lines", "strings of one line");
+            }
+        } else if (static_cast<unsigned char>(character) >= 0x80) {
+            refuse(placer(line, i + 1 - line_begin), "a character beyond ASCII",
+                   "those in strings and comments");
+        } else if (std::string_view(",=[]{}").find(character) != std::string_view::npos) {
             dots = 0;
         } else if (character == '.' && ++dots > most_dots) {
-            refuse(place, fmt::format("more than {} dots in a row", most_dots), "keys of at most two parts");
+            refuse(placer(line, i + 1 - line_begin), "a key of many parts", "keys of at most two");
         }
     }
 }
@@ -66,22 +95,23 @@ bool is_bare_word(std::string_view text) {
 } // namespace
 
 Node parse_document(std::string_view text, const std::string& file) {
-    const Placer placer = [&](const toml::source_region& region) {
-        return fmt::format("{}:{}:{}", file, std::max(region.begin.line, 1U),
-                           std::max(region.begin.column, 1U));
+    const Placer placer = [&](std::size_t line, std::size_t column) {
+        return fmt::format("{}:{}:{}", file, std::max<std::size_t>(line, 1),
+                           std::max<std::size_t>(column, 1));
     };
-    check_depth(text, file);
+    check_lexically(text, placer);
     try {
         return convert(toml::parse(text), placer);
     } catch (const toml::parse_error& error) {
-        refuse(placer(error.source()), fmt::format("no TOML ({})", printable(error.description())),
+        refuse(placer(error.source().begin.line, error.source().begin.column),
+               fmt::format("no TOML ({})", printable(error.description())),
                "TOML 1.0, see `slurry help scene`");
     }
 }
 
 Node parse_override_value(std::string_view text, const std::string& place) {
-    const Placer placer = [&](const toml::source_region&) { return place; };
-    check_depth(text, place);
+    const Placer placer = [&](std::size_t, std::size_t) { return place; };
+    check_lexically(text, placer);
     try {
         const toml::table table = toml::parse(fmt::format("value = {}", text));
         if (table.size() == 1) {

@@ -100,6 +100,12 @@ const std::vector<Parameter> parameter_table{
     {"numerics", "", "wall_dummies", member(&Numerics::wall_dummies), "",
      Default::by_scheme<std::string>("curve", "lattice"), one_of({"curve", "lattice"}),
      "wall particles in layers along the wall, or on the lattice of the fluid"},
+    {"numerics", "", "wall_continuity", member(&Numerics::wall_continuity), "",
+     Default::by_scheme<std::string>("wall_velocity", "extrapolated"), one_of({"wall_velocity", "extrapolated"}),
+     "velocity of wall particles in the continuity equation"},
+    {"numerics", "", "particle_volume", member(&Numerics::particle_volume), "",
+     Default::by_scheme<std::string>("mass_over_density", "number_density"),
+     one_of({"mass_over_density", "number_density"}), "particle volume in the forces"},
 
     {"start", "", "arrangement", member(&Start::arrangement), "", word("lattice"),
      one_of({"lattice", "jittered", "relaxed"}), "of the fluid's particles"},

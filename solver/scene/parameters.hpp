@@ -40,10 +40,10 @@ struct Default {
     std::optional<Value> wang2014;
 
     Default() = default;
-    template <class T> Default(T value) : standard(Value(std::move(value))), wang2014(standard) {}
+    template <class T> Default(T value) : standard(std::in_place, std::move(value)), wang2014(standard) {}
     template <class T> static Default by_scheme(T standard, T wang2014) {
         Default value(std::move(standard));
-        value.wang2014 = Value(std::move(wang2014));
+        value.wang2014.emplace(std::move(wang2014));
         return value;
     }
     [[nodiscard]] const std::optional<Value>& of(Scheme scheme) const {

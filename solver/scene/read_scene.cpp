@@ -50,7 +50,7 @@ class Reader {
             }
             read_key(*parameter, node, index, fmt::format("{}.{}", prefix, parameter->key));
             if (section.repeated() && parameter->key == "name") {
-                prefix += "." + std::get<std::string>(parameter->get(scene_, index));
+                prefix = fmt::format("{}.{}", prefix, std::get<std::string>(parameter->get(scene_, index)));
                 places_.add(prefix + ".name", find(table, "name")->node.place);
             }
         }

@@ -15,6 +15,10 @@ namespace slurry {
 // "Schemes" of the README lists. A scheme only sets the defaults of the keys of `numerics`.
 enum class Scheme : std::uint8_t { standard, wang2014 };
 enum class DummyLayout : std::uint8_t { curve, lattice };
+// Which velocity of a wall's dummies the continuity equation sees: the wall's own, or the extrapolated one (2.16).
+enum class WallContinuity : std::uint8_t { wall_velocity, extrapolated };
+// Particle volume in the forces: m / rho, or 1 / sum W (below Eq. 2.8).
+enum class ParticleVolume : std::uint8_t { mass_over_density, number_density };
 enum class Arrangement : std::uint8_t { lattice, jittered, relaxed };
 enum class InitialVelocity : std::uint8_t { rest, shear, taylor_green };
 enum class FluidSide : std::uint8_t { above, below, left, right };
@@ -47,6 +51,8 @@ struct Numerics {
     bool gradient_correction = true;
     bool advection_tensor = true;
     DummyLayout wall_dummies = DummyLayout::curve;
+    WallContinuity wall_continuity = WallContinuity::wall_velocity;
+    ParticleVolume particle_volume = ParticleVolume::mass_over_density;
 
     [[nodiscard]] double smoothing_length() const { return smoothing_ratio * particle_spacing; }
 };
