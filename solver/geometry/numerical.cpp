@@ -42,6 +42,14 @@ std::array<QuadraturePoint, 5> make_gauss_points() {
     return points;
 }
 
+std::shared_ptr<gsl_spline> allocate_spline(const gsl_interp_type* type, std::size_t points) {
+    const ReturnCodes return_codes;
+    gsl_spline* spline = gsl_spline_alloc(type, points);
+    if (spline == nullptr)
+        throw std::runtime_error("spline: too few points");
+    return {spline, gsl_spline_free};
+}
+
 } // namespace
 
 double find_root(const std::function<double(double)>& function, double lower, double upper) {
@@ -67,13 +75,10 @@ std::span<const QuadraturePoint, 5> gauss_points() {
 }
 
 Spline::Spline(Kind kind, std::span<const double> x, std::span<const double> y)
-    : lower_(x.front()), upper_(x.back()) {
+    : lower_(x.front()), upper_(x.back()),
+      spline_(allocate_spline(kind == Kind::periodic_cubic ? gsl_interp_cspline_periodic : gsl_interp_steffen,
+                              x.size())) {
     const ReturnCodes return_codes;
-    const gsl_interp_type* type =
-        kind == Kind::periodic_cubic ? gsl_interp_cspline_periodic : gsl_interp_steffen;
-    spline_ = {gsl_spline_alloc(type, x.size()), gsl_spline_free};
-    if (!spline_)
-        throw std::runtime_error("spline: too few points");
     require(gsl_spline_init(spline_.get(), x.data(), y.data(), x.size()), "spline");
 }
 

@@ -54,8 +54,8 @@ Wall::Wall(const WallScene& scene, const Domain& domain) {
     check_motion(scene, curve, domain);
     const bool left = scene.fluid_side == FluidSide::above || scene.fluid_side == FluidSide::left;
     const bool stays = !curve.closed();
-    implementation_ = std::make_unique<Implementation>(scene.name, scene.velocity, left ? 1.0 : -1.0,
-                                                       std::move(curve), stays);
+    implementation_ = std::make_unique<Implementation>(
+        Implementation{scene.name, scene.velocity, left ? 1.0 : -1.0, std::move(curve), stays});
 }
 
 Wall::~Wall() = default;

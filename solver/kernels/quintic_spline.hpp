@@ -10,14 +10,15 @@ namespace slurry {
 struct QuinticSpline {
     static constexpr double support = 3; // in smoothing lengths
 
-    // lambda of Eq. 2.4 in 1, 2 and 3 dimensions. The paper prints 3/(359 pi) for 3D, which integrates to 1.0028;
-    // 1/(120 pi) integrates to one.
+    // lambda of Eq. 2.4 in 1, 2 and 3 dimensions. The paper prints 3/(359 pi) for 3D, which integrates
+    // to 1.0028; 1/(120 pi) integrates to one.
     static constexpr std::array<double, 3> normalisation{1.0 / 120, 7 / (478 * std::numbers::pi),
                                                          1 / (120 * std::numbers::pi)};
 
     // f(q) / lambda. The powers of positive parts give the four cases of Eq. 2.4 without a branch.
     template <class P> static P shape(const P& q) {
-        return fifth(positive_part(3 - q)) - 6 * fifth(positive_part(2 - q)) + 15 * fifth(positive_part(1 - q));
+        return fifth(positive_part(3 - q)) - 6 * fifth(positive_part(2 - q)) +
+               15 * fifth(positive_part(1 - q));
     }
     // f'(q) / lambda
     template <class P> static P slope(const P& q) {

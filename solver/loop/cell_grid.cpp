@@ -5,8 +5,8 @@
 
 namespace slurry {
 
-CellGrid::CellGrid(std::span<const double> x, std::span<const double> y, std::span<const std::uint32_t> indices,
-                   double cell_size)
+CellGrid::CellGrid(std::span<const double> x, std::span<const double> y,
+                   std::span<const std::uint32_t> indices, double cell_size)
     : inverse_size_(1 / cell_size), order_(indices.size()) {
     double upper_x = -std::numeric_limits<double>::infinity();
     double upper_y = upper_x;
@@ -38,11 +38,13 @@ CellGrid::CellGrid(std::span<const double> x, std::span<const double> y, std::sp
 }
 
 std::ptrdiff_t CellGrid::column_of(double x) const {
-    return std::clamp(static_cast<std::ptrdiff_t>((x - lower_x_) * inverse_size_), std::ptrdiff_t{0}, columns_ - 1);
+    return std::clamp(static_cast<std::ptrdiff_t>((x - lower_x_) * inverse_size_), std::ptrdiff_t{0},
+                      columns_ - 1);
 }
 
 std::ptrdiff_t CellGrid::row_of(double y) const {
-    return std::clamp(static_cast<std::ptrdiff_t>((y - lower_y_) * inverse_size_), std::ptrdiff_t{0}, rows_ - 1);
+    return std::clamp(static_cast<std::ptrdiff_t>((y - lower_y_) * inverse_size_), std::ptrdiff_t{0},
+                      rows_ - 1);
 }
 
 } // namespace slurry

@@ -1,5 +1,6 @@
 #pragma once
-// What the time step asks of the particles' interactions; the widths and compositions behind it are chosen once.
+// What the time step asks of the particles' interactions; the widths and compositions behind it are chosen
+// once.
 #include "solver/particles/particles.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -14,7 +15,8 @@ class Interactions {
     Interactions& operator=(const Interactions&) = delete;
     virtual ~Interactions() = default;
 
-    // Brings the neighbour lists up to date with the positions. Wraps and sorts the particles when it rebuilds them.
+    // Brings the neighbour lists up to date with the positions. Wraps and sorts the particles when it
+    // rebuilds them.
     virtual void refresh_neighbours(Particles& particles) = 0;
     // Eq. 2.14 with the scene's corrections, into fluid.density_rate.
     virtual void compute_density_rate(Particles& particles) = 0;
@@ -28,7 +30,8 @@ class Interactions {
     [[nodiscard]] virtual long rebuilds() const = 0;
 };
 
-// As wide as the machine's vectors, or with plain numbers (the reference that the wide loops are tested against).
+// As wide as the machine's vectors, or with plain numbers (the reference that the wide loops are tested
+// against).
 enum class LoopWidth : unsigned char { native, plain };
 std::unique_ptr<Interactions> make_interactions(const Scene& scene, LoopWidth width = LoopWidth::native);
 

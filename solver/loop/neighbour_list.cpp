@@ -7,8 +7,9 @@ namespace slurry {
 namespace {
 
 // Writes the neighbours of one target into its lane; counts on without writing when the lane is full.
-std::size_t fill_lane(std::span<const double> x, std::span<const double> y, const CellGrid& grid, std::uint32_t target,
-                      double squared_cutoff, std::uint32_t* lane, std::size_t stride, std::size_t capacity) {
+std::size_t fill_lane(std::span<const double> x, std::span<const double> y, const CellGrid& grid,
+                      std::uint32_t target, double squared_cutoff, std::uint32_t* lane, std::size_t stride,
+                      std::size_t capacity) {
     std::size_t found = 0;
     grid.visit_near(x[target], y[target], [&](std::uint32_t other) {
         const double dx = x[target] - x[other];
@@ -25,8 +26,8 @@ std::size_t fill_lane(std::span<const double> x, std::span<const double> y, cons
 
 } // namespace
 
-void NeighbourList::build(std::span<const double> x, std::span<const double> y, const CellGrid& grid, std::size_t first,
-                          std::size_t last, std::uint32_t padding, double cutoff) {
+void NeighbourList::build(std::span<const double> x, std::span<const double> y, const CellGrid& grid,
+                          std::size_t first, std::size_t last, std::uint32_t padding, double cutoff) {
     const std::size_t blocks = (last - first + width_ - 1) / width_;
     targets_.assign(blocks * width_, padding);
     counts_.assign(blocks, 0);
@@ -37,7 +38,8 @@ void NeighbourList::build(std::span<const double> x, std::span<const double> y, 
         entries_.resize(blocks * width_ * capacity_);
         longest = 0;
 #pragma omp parallel for schedule(static) reduction(max : longest)
-        for (std::ptrdiff_t signed_block = 0; signed_block < static_cast<std::ptrdiff_t>(blocks); ++signed_block) {
+        for (std::ptrdiff_t signed_block = 0; signed_block < static_cast<std::ptrdiff_t>(blocks);
+             ++signed_block) {
             const auto block = static_cast<std::size_t>(signed_block);
             std::uint32_t* entries = entries_.data() + block * capacity_ * width_;
             std::fill_n(entries, capacity_ * width_, padding);

@@ -1,6 +1,6 @@
 #pragma once
-// Neighbours of consecutive targets, interleaved for the pair loop: block b holds targets b W ... b W + W - 1, and
-// entry k of lane l is its k-th neighbour. Short lanes are padded with a row that is far away.
+// Neighbours of consecutive targets, interleaved for the pair loop: block b holds targets b W ... b W + W -
+// 1, and entry k of lane l is its k-th neighbour. Short lanes are padded with a row that is far away.
 #include "solver/loop/cell_grid.hpp"
 
 #include <cstdint>
@@ -13,13 +13,15 @@ class NeighbourList {
   public:
     explicit NeighbourList(int width) : width_(static_cast<std::size_t>(width)) {}
 
-    // Lists for targets first ... last - 1 all points of the grid nearer than the cut-off, themselves excepted, in an
-    // order that depends on the grid alone.
+    // Lists for targets first ... last - 1 all points of the grid nearer than the cut-off, themselves
+    // excepted, in an order that depends on the grid alone.
     void build(std::span<const double> x, std::span<const double> y, const CellGrid& grid, std::size_t first,
                std::size_t last, std::uint32_t padding, double cutoff);
 
     [[nodiscard]] std::size_t block_count() const { return counts_.size(); }
-    [[nodiscard]] const std::uint32_t* targets(std::size_t block) const { return targets_.data() + block * width_; }
+    [[nodiscard]] const std::uint32_t* targets(std::size_t block) const {
+        return targets_.data() + block * width_;
+    }
     [[nodiscard]] const std::uint32_t* neighbours(std::size_t block) const {
         return entries_.data() + block * capacity_ * width_;
     }

@@ -1,6 +1,6 @@
 #pragma once
-// W numbers handled at once: the pair physics is written over Pack<Real, W>, where W = 1 is the plain number that the
-// wide versions are tested against.
+// W numbers handled at once: the pair physics is written over Pack<Real, W>, where W = 1 is the plain number
+// that the wide versions are tested against.
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -35,7 +35,9 @@ template <class P> P load(const auto* from) {
     return pack;
 }
 
-template <class P> void store(auto* to, const P& pack) { std::memcpy(to, &pack, sizeof(P)); }
+template <class P> void store(auto* to, const P& pack) {
+    std::memcpy(to, &pack, sizeof(P));
+}
 
 template <class P> P positive_part(P x) {
     const P zero{};
@@ -47,8 +49,8 @@ template <class P> P inverse_square_root(const P& x) {
         return 1 / std::sqrt(x);
     } else {
 #ifdef __AVX512F__
-        // The hardware estimate has 14 bits; each Newton step doubles them. Square root and division would take
-        // longer than the rest of the pair.
+        // The hardware estimate has 14 bits; each Newton step doubles them. Square root and division would
+        // take longer than the rest of the pair.
         if constexpr (std::is_same_v<P, Pack<double, 8>>) {
             P y = reinterpret_cast<P>(_mm512_maskz_rsqrt14_pd(0xFF, reinterpret_cast<__m512d>(x)));
             y = y * (1.5 - 0.5 * x * y * y);

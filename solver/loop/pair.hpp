@@ -22,8 +22,8 @@ template <class Real> struct KernelScale {
     template <class Kernel> static KernelScale of(double smoothing_length) {
         const double h = smoothing_length;
         const double lambda = Kernel::normalisation[1];
-        return {static_cast<Real>(1 / h), static_cast<Real>(lambda / (h * h)), static_cast<Real>(lambda / (h * h * h)),
-                static_cast<Real>(1e-12 * h * h)};
+        return {static_cast<Real>(1 / h), static_cast<Real>(lambda / (h * h)),
+                static_cast<Real>(lambda / (h * h * h)), static_cast<Real>(1e-12 * h * h)};
     }
 };
 
@@ -32,7 +32,8 @@ Pair<P> make_pair(const KernelScale<Real>& scale, const P& dx, const P& dy) {
     const P squared = dx * dx + dy * dy + scale.softening;
     const P inverse = inverse_square_root(squared);
     const P q = squared * inverse * scale.inverse_smoothing_length;
-    return {dx, dy, squared, Kernel::shape(q) * scale.kernel_factor, Kernel::slope(q) * inverse * scale.slope_factor};
+    return {dx, dy, squared, Kernel::shape(q) * scale.kernel_factor,
+            Kernel::slope(q) * inverse * scale.slope_factor};
 }
 
 } // namespace slurry

@@ -1,5 +1,5 @@
-// The passes of a time step over pairs of particles. Which terms are in a pass is a compile-time composition; the
-// branches here choose among compositions once per pass.
+// The passes of a time step over pairs of particles. Which terms are in a pass is a compile-time composition;
+// the branches here choose among compositions once per pass.
 #include "solver/kernels/quintic_spline.hpp"
 #include "solver/loop/interactions.hpp"
 #include "solver/loop/periodic_rows.hpp"
@@ -21,7 +21,8 @@ namespace slurry {
 
 namespace {
 
-// Extra reach of the neighbour lists, in particle spacings: a longer skin means fewer rebuilds and longer lists.
+// Extra reach of the neighbour lists, in particle spacings: a longer skin means fewer rebuilds and longer
+// lists.
 constexpr double skin_ratio = 0.35;
 
 template <class P> void store_lanes(std::vector<double>& to, std::size_t first, const P& from) {
@@ -55,8 +56,8 @@ template <class Real, int W> class PairInteractions final : public Interactions 
         fluid_list_.build(x, y, all, 0, periodic_.fluid_count(), periodic_.padding(), reach);
         if (terms_.walls) {
             const CellGrid fluid(x, y, periodic_.fluid_rows(), reach);
-            dummy_list_.build(x, y, fluid, periodic_.fluid_count(), periodic_.particle_count(), periodic_.padding(),
-                              reach);
+            dummy_list_.build(x, y, fluid, periodic_.fluid_count(), periodic_.particle_count(),
+                              periodic_.padding(), reach);
         }
         rows_.resize(periodic_.row_count());
         ++rebuilds_;
@@ -99,9 +100,11 @@ template <class Real, int W> class PairInteractions final : public Interactions 
                 return make_row(dummies.x[d], dummies.y[d], dummies.volume[d] / cell, 0, 0, 0, 0, 0);
             });
         const VolumeCoefficients<Real> coefficients{Kernel::shape(Real{0}) * scale_.kernel_factor};
-        sweep<Real, W, Kernel, VolumeView, Volume>(
-            Composition<NumberDensity>{}, fluid_list_, rows(), scale_, coefficients,
-            [&](std::size_t first, const Volume<P>& result) { store_lanes(fluid.volume, first, result.volume); });
+        sweep<Real, W, Kernel, VolumeView, Volume>(Composition<NumberDensity>{}, fluid_list_, rows(), scale_,
+                                                   coefficients,
+                                                   [&](std::size_t first, const Volume<P>& result) {
+                                                       store_lanes(fluid.volume, first, result.volume);
+                                                   });
     }
 
     void extrapolate_to_walls(Particles& particles) override {
@@ -114,8 +117,8 @@ template <class Real, int W> class PairInteractions final : public Interactions 
                                                            static_cast<Real>(fluid_.body_force.x()),
                                                            static_cast<Real>(fluid_.body_force.y())};
         sweep<Real, W, Kernel, ForceView, Extrapolation>(
-            Composition<VelocityExtrapolation, PressureExtrapolation>{}, dummy_list_, rows(), scale_, coefficients,
-            [&](std::size_t first, const Extrapolation<P>& result) {
+            Composition<VelocityExtrapolation, PressureExtrapolation>{}, dummy_list_, rows(), scale_,
+            coefficients, [&](std::size_t first, const Extrapolation<P>& result) {
                 store_lanes(dummies.velocity_x, first, result.velocity_x);
                 store_lanes(dummies.velocity_y, first, result.velocity_y);
                 store_lanes(dummies.pressure, first, result.pressure);
@@ -151,7 +154,9 @@ template <class Real, int W> class PairInteractions final : public Interactions 
                    : Vector(dummies.velocity_x[d], dummies.velocity_y[d]);
     }
 
-    static Row<Real> make_row(std::convertible_to<double> auto... values) { return {{static_cast<Real>(values)...}}; }
+    static Row<Real> make_row(std::convertible_to<double> auto... values) {
+        return {{static_cast<Real>(values)...}};
+    }
 
     // Writes the rows of a pass: fluid_row(i), dummy_row(d), their periodic copies, and the padding.
     template <class FluidRow, class DummyRow>
@@ -189,8 +194,8 @@ template <class Real, int W> class PairInteractions final : public Interactions 
                                 fluid.volume[i], fluid.volume[i] * fluid.pressure[i]);
             },
             [&](std::size_t d) {
-                return make_row(dummies.x[d], dummies.y[d], dummies.velocity_x[d], dummies.velocity_y[d], 0, 0,
-                                dummies.volume[d], dummies.volume[d] * dummies.pressure[d]);
+                return make_row(dummies.x[d], dummies.y[d], dummies.velocity_x[d], dummies.velocity_y[d], 0,
+                                0, dummies.volume[d], dummies.volume[d] * dummies.pressure[d]);
             });
     }
 
@@ -232,7 +237,8 @@ template <class Real, int W> class PairInteractions final : public Interactions 
             static_cast<Real>(1 / fluid.mass), static_cast<Real>(fluid_.dynamic_viscosity),
             static_cast<Real>(numerics_.background_pressure_ratio * fluid_.density * c * c)};
         sweep<Real, W, Kernel, ForceView, Acceleration>(
-            terms, fluid_list_, rows(), scale_, coefficients, [&](std::size_t first, const Acceleration<P>& result) {
+            terms, fluid_list_, rows(), scale_, coefficients,
+            [&](std::size_t first, const Acceleration<P>& result) {
                 store_lanes(fluid.acceleration_x, first, result.x);
                 store_lanes(fluid.acceleration_y, first, result.y);
                 store_lanes(fluid.background_x, first, result.background_x);

@@ -13,8 +13,8 @@ double wrap_shift(double position, double lower, double length) {
 }
 
 // Order by strips of the given height, then by x.
-std::vector<std::uint32_t> strip_order(const std::vector<double>& x, const std::vector<double>& y, double lower_y,
-                                       double height) {
+std::vector<std::uint32_t> strip_order(const std::vector<double>& x, const std::vector<double>& y,
+                                       double lower_y, double height) {
     struct Key {
         std::int32_t strip;
         std::uint32_t index;
@@ -22,7 +22,8 @@ std::vector<std::uint32_t> strip_order(const std::vector<double>& x, const std::
     };
     std::vector<Key> keys(x.size());
     for (std::size_t k = 0; k < keys.size(); ++k) {
-        keys[k] = {static_cast<std::int32_t>(std::floor((y[k] - lower_y) / height)), static_cast<std::uint32_t>(k), x[k]};
+        keys[k] = {static_cast<std::int32_t>(std::floor((y[k] - lower_y) / height)),
+                   static_cast<std::uint32_t>(k), x[k]};
     }
     std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
         return a.strip != b.strip ? a.strip < b.strip : (a.x != b.x ? a.x < b.x : a.index < b.index);
@@ -98,8 +99,10 @@ void PeriodicRows::add_copies(const Domain& domain, double reach) {
                     const Vector shift(column * length.x(), row * length.y());
                     const double x = x_[k] + shift.x();
                     const double y = y_[k] + shift.y();
-                    const bool near_x = column == 0 || (x > domain.lower.x() - reach && x < domain.upper.x() + reach);
-                    const bool near_y = row == 0 || (y > domain.lower.y() - reach && y < domain.upper.y() + reach);
+                    const bool near_x =
+                        column == 0 || (x > domain.lower.x() - reach && x < domain.upper.x() + reach);
+                    const bool near_y =
+                        row == 0 || (y > domain.lower.y() - reach && y < domain.upper.y() + reach);
                     if ((column != 0 || row != 0) && near_x && near_y) {
                         copies_.push_back({static_cast<std::uint32_t>(k), shift});
                     }
@@ -131,9 +134,10 @@ std::vector<std::uint32_t> PeriodicRows::all_rows() const {
 }
 
 double PeriodicRows::relative_displacement(const Particles& particles) const {
-    // All particles' displacements lie in a box; no two differ by more than its diagonal. A motion common to all
-    // costs no rebuild.
-    const auto range = [](const std::vector<double>& now, const double* before, double& lowest, double& highest) {
+    // All particles' displacements lie in a box; no two differ by more than its diagonal. A motion common to
+    // all costs no rebuild.
+    const auto range = [](const std::vector<double>& now, const double* before, double& lowest,
+                          double& highest) {
         const std::size_t count = now.size();
         double low = lowest;
         double high = highest;

@@ -1,6 +1,6 @@
 #pragma once
-// Which rows a pass has: the fluid, the dummies, then copies of both beyond periodic sides, then one row far away that
-// pads neighbour lists. With copies the pair loop needs no minimum image.
+// Which rows a pass has: the fluid, the dummies, then copies of both beyond periodic sides, then one row far
+// away that pads neighbour lists. With copies the pair loop needs no minimum image.
 #include "solver/particles/particles.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -17,8 +17,8 @@ class PeriodicRows {
         Vector shift;
     };
 
-    // Wraps the particles into the domain, sorts them into strips (by y in steps of `reach`, then by x) so that
-    // neighbours are near in memory, and finds the copies within `reach` of a periodic side.
+    // Wraps the particles into the domain, sorts them into strips (by y in steps of `reach`, then by x) so
+    // that neighbours are near in memory, and finds the copies within `reach` of a periodic side.
     void rebuild(Particles& particles, const Domain& domain, double reach);
 
     [[nodiscard]] std::size_t fluid_count() const { return fluid_count_; }

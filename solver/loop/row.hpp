@@ -1,6 +1,6 @@
 #pragma once
-// Rows: what a pair needs of one particle, eight numbers side by side in memory, written once per pass and then only
-// read. One neighbour costs one cache line in double, and W of them are transposed in registers.
+// Rows: what a pair needs of one particle, eight numbers side by side in memory, written once per pass and
+// then only read. One neighbour costs one cache line in double, and W of them are transposed in registers.
 #include "solver/loop/pack.hpp"
 
 #include <array>
@@ -10,9 +10,7 @@ namespace slurry {
 
 inline constexpr int row_fields = 8;
 
-template <class Real> struct alignas(row_fields * sizeof(Real)) Row {
-    std::array<Real, row_fields> field;
-};
+template <class Real> struct alignas(row_fields * sizeof(Real)) Row { std::array<Real, row_fields> field; };
 
 template <class P> using Fields = std::array<P, row_fields>;
 

@@ -5,7 +5,8 @@
 //   template <class P> struct Sums { P ... ; };              accumulators, zero-initialised
 //   add(Sums<P>&, const Pair<P>&, const View<P>& i, const View<P>& j)   one pair
 //   finish(const Sums<P>&, const View<P>& i, const Coefficients&, Result<P>&)   after the last neighbour
-// where View names the fields of the pass's rows. What a composition does not name is not compiled into its loop.
+// where View names the fields of the pass's rows. What a composition does not name is not compiled into its
+// loop.
 #include "solver/loop/neighbour_list.hpp"
 #include "solver/loop/pair.hpp"
 #include "solver/loop/row.hpp"
@@ -24,17 +25,17 @@ template <class... Terms> struct Composition {
     template <class P, class View, class Coefficients, class Result>
     static void finish(const AllSums<P, Terms...>& sums, const View& i, const Coefficients& coefficients,
                        Result& result) {
-        (Terms::finish(static_cast<const typename Terms::template Sums<P>&>(sums), i, coefficients, result), ...);
+        (Terms::finish(static_cast<const typename Terms::template Sums<P>&>(sums), i, coefficients, result),
+         ...);
     }
 };
 
 // One block of W targets. Flattened: a call inside the loop would send its vectors through memory.
 template <class Real, int W, class Kernel, template <class> class View, template <class> class Result,
           class Coefficients, class... Terms>
-[[gnu::flatten]] Result<Pack<Real, W>> sweep_block(Composition<Terms...> /*which*/, const NeighbourList& list,
-                                                   std::size_t block, const Row<Real>* rows,
-                                                   const KernelScale<Real>& scale_in,
-                                                   const Coefficients& coefficients) {
+[[gnu::flatten]] Result<Pack<Real, W>>
+sweep_block(Composition<Terms...> /*which*/, const NeighbourList& list, std::size_t block,
+            const Row<Real>* rows, const KernelScale<Real>& scale_in, const Coefficients& coefficients) {
     using P = Pack<Real, W>;
     const KernelScale<Real> scale = scale_in;
     const View<P> i{gather<Real, W>(rows, list.targets(block))};
@@ -51,8 +52,8 @@ template <class Real, int W, class Kernel, template <class> class View, template
     return result;
 }
 
-// Calls store_result(first target, results of W targets) for every block. A thread owns whole blocks, so that nothing
-// depends on the number of threads.
+// Calls store_result(first target, results of W targets) for every block. A thread owns whole blocks, so that
+// nothing depends on the number of threads.
 template <class Real, int W, class Kernel, template <class> class View, template <class> class Result,
           class Coefficients, class... Terms, class StoreResult>
 void sweep(Composition<Terms...> which, const NeighbourList& list, std::span<const Row<Real>> rows,
@@ -61,8 +62,9 @@ void sweep(Composition<Terms...> which, const NeighbourList& list, std::span<con
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t signed_block = 0; signed_block < blocks; ++signed_block) {
         const auto block = static_cast<std::size_t>(signed_block);
-        store_result(block * static_cast<std::size_t>(W),
-                     sweep_block<Real, W, Kernel, View, Result>(which, list, block, rows.data(), scale, coefficients));
+        store_result(
+            block * static_cast<std::size_t>(W),
+            sweep_block<Real, W, Kernel, View, Result>(which, list, block, rows.data(), scale, coefficients));
     }
 }
 

@@ -16,7 +16,8 @@ namespace {
 
 // Moves every point by up to `jitter` spacings along each axis, less where that would bring it to a wall.
 void jitter_points(std::vector<Vector>& points, const Start& start, double spacing, const Region& region) {
-    const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
+    const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random(gsl_rng_alloc(gsl_rng_mt19937),
+                                                                   gsl_rng_free);
     gsl_rng_set(random.get(), static_cast<unsigned long>(start.seed));
     const double closest = 0.25 * spacing;
     for (Vector& point : points) {
@@ -52,8 +53,8 @@ void place_dummies(DummyParticles& dummies, const Scene& scene, const Region& re
     dummies.move_to(0);
 }
 
-// Lets the background pressure even out the spacing, without inertia, against walls at rest. One iteration moves a
-// particle by h^2 / c^2 times its acceleration: a third of the stability limit of this descent.
+// Lets the background pressure even out the spacing, without inertia, against walls at rest. One iteration
+// moves a particle by h^2 / c^2 times its acceleration: a third of the stability limit of this descent.
 void relax(Particles& particles, const Scene& scene) {
     constexpr int most_iterations = 1000;
     constexpr double still = 1e-4; // spacings per iteration

@@ -6,12 +6,12 @@
 
 namespace slurry {
 
-// Fluid particles on a lattice, jittered or relaxed as the scene says, at the reference density, and the dummies of
-// all walls. All fluid particles have the same mass, so that their sum is the fluid's.
+// Fluid particles on a lattice, jittered or relaxed as the scene says, at the reference density, and the
+// dummies of all walls. All fluid particles have the same mass, so that their sum is the fluid's.
 Particles arrange_particles(const Scene& scene, const Region& region);
 
-// Layers of dummies that complete the kernel's support: the first fluid row is half a spacing from the wall, and so
-// is the first layer.
+// Layers of dummies that complete the kernel's support: the first fluid row is half a spacing from the wall,
+// and so is the first layer.
 int dummy_layers(const Numerics& numerics);
 
 } // namespace slurry

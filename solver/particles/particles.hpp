@@ -12,7 +12,7 @@ struct FluidParticles {
     double mass = 0; // kg/m, of every particle
     std::vector<double> x, y;
     std::vector<double> velocity_x, velocity_y;
-    std::vector<double> shift_x, shift_y; // advection velocity less velocity, v~ - v
+    std::vector<double> shift_x, shift_y;               // advection velocity less velocity, v~ - v
     std::vector<double> acceleration_x, acceleration_y; // dv~/dt of Eq. 2.20
     std::vector<double> background_x, background_y;     // f_pb of Eq. 2.30, times -1 (an acceleration)
     std::vector<double> density, density_rate, pressure, volume;
@@ -22,8 +22,9 @@ struct FluidParticles {
     void resize(std::size_t count);
     // Calls visit(vector) for every array of doubles.
     template <class Visit> void each_array(Visit&& visit) {
-        for (auto* array : {&x, &y, &velocity_x, &velocity_y, &shift_x, &shift_y, &acceleration_x, &acceleration_y,
-                            &background_x, &background_y, &density, &density_rate, &pressure, &volume}) {
+        for (auto* array :
+             {&x, &y, &velocity_x, &velocity_y, &shift_x, &shift_y, &acceleration_x, &acceleration_y,
+              &background_x, &background_y, &density, &density_rate, &pressure, &volume}) {
             visit(*array);
         }
     }
@@ -38,7 +39,7 @@ struct DummyParticles {
     std::vector<double> pressure;               // extrapolated, Eq. 2.17
     std::vector<int> wall;                      // index into the region's walls
     std::vector<Vector> wall_velocity;          // per wall, m/s
-    std::vector<Vector> wall_drift;             // per wall, m/s: 0 where a wall slides along itself between fixed ends
+    std::vector<Vector> wall_drift; // per wall, m/s: 0 where a wall slides along itself between fixed ends
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
     void resize(std::size_t count);

@@ -119,7 +119,7 @@ void apply_override(Node& document, const std::string& text) {
 void check_structure(const Node& document) {
     for (const Entry& entry : std::get<NodeTable>(document.value)) {
         const Section* section = find_section(entry.key);
-        if (section == nullptr) {
+        if (section == nullptr) { // refuse does not return
             std::vector<std::string> names;
             std::ranges::transform(sections(), std::back_inserter(names),
                                    [](const Section& known) { return std::string(known.name); });

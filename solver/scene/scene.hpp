@@ -15,7 +15,8 @@ namespace slurry {
 // "Schemes" of the README lists. A scheme only sets the defaults of the keys of `numerics`.
 enum class Scheme : std::uint8_t { standard, wang2014 };
 enum class DummyLayout : std::uint8_t { curve, lattice };
-// Which velocity of a wall's dummies the continuity equation sees: the wall's own, or the extrapolated one (2.16).
+// Which velocity of a wall's dummies the continuity equation sees: the wall's own, or the extrapolated one
+// (2.16).
 enum class WallContinuity : std::uint8_t { wall_velocity, extrapolated };
 // Particle volume in the forces: m / rho, or 1 / sum W (below Eq. 2.8).
 enum class ParticleVolume : std::uint8_t { mass_over_density, number_density };
@@ -32,8 +33,8 @@ struct Domain {
 };
 
 struct Fluid {
-    double density = 0;           // kg/m3
-    double dynamic_viscosity = 0; // Pa s
+    double density = 0;                 // kg/m3
+    double dynamic_viscosity = 0;       // Pa s
     Vector body_force = Vector::Zero(); // m/s2, per mass
 
     [[nodiscard]] double kinematic_viscosity() const { return dynamic_viscosity / density; }
@@ -76,14 +77,15 @@ struct CosineShape { // y = mean_height + amplitude cos(2 pi (x - crest) / wavel
 struct GaussianShape { // y = base_height + amplitude exp(-(x - centre)^2 / (2 width^2))
     double base_height, amplitude, centre, width;
 };
-struct ArcShape { // the line y = base_height with an arc of the given radius and central angle; height > 0 bulges up
+struct ArcShape { // the line y = base_height with an arc of the given radius and central angle; height > 0
+                  // bulges up
     double base_height, centre, radius, angle;
     bool upward;
 };
 struct SineShape { // the line y = base_height with one period of a sine of the given length about the centre
     double base_height, amplitude, centre, length;
 };
-struct ProfileShape { // y(x) through the two columns of a CSV file
+struct ProfileShape {           // y(x) through the two columns of a CSV file
     std::filesystem::path file; // absolute, or relative to the scene file's folder (already resolved)
     double base_height;         // added to the file's heights
     std::vector<Vector> points; // as read, x ascending
@@ -114,8 +116,9 @@ struct ProbeScene {
 
 struct Output {
     double end_time = 0;
-    int series_samples = 200;           // energies, momenta and point probes: evenly spaced times, start and end included
-    int probe_samples = 10;             // wall and grid probes: evenly spaced times up to the end
+    int series_samples =
+        200;                // energies, momenta and point probes: evenly spaced times, start and end included
+    int probe_samples = 10; // wall and grid probes: evenly spaced times up to the end
     std::vector<double> snapshot_times; // all particles; the end is always added
 };
 

@@ -1,14 +1,13 @@
 #pragma once
-// Advection tensor, Eq. 2.20 [wang2014, adami2013]: dv_i/dt += 1/m_i sum_j (V_i^2 + V_j^2) (A_i + A_j)/2 . grad W_ij
-// with A = rho v (x) (v~ - v), the momentum carried by the difference between advection velocity v~ and velocity v.
+// Advection tensor, Eq. 2.20 [wang2014, adami2013]: dv_i/dt += 1/m_i sum_j (V_i^2 + V_j^2) (A_i + A_j)/2 .
+// grad W_ij with A = rho v (x) (v~ - v), the momentum carried by the difference between advection velocity v~
+// and velocity v.
 #include "solver/terms/pressure_force.hpp"
 
 namespace slurry {
 
 struct AdvectionTensor {
-    template <class P> struct Sums {
-        P advection_x{}, advection_y{};
-    };
+    template <class P> struct Sums { P advection_x{}, advection_y{}; };
     template <class P>
     static void add(Sums<P>& sums, const Pair<P>& pair, const ForceView<P>& i, const ForceView<P>& j) {
         const P weight = force_weight(pair, i, j);

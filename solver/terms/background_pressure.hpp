@@ -1,14 +1,13 @@
 #pragma once
 // Background pressure of the transport velocity, Eq. 2.19 [wang2014, adami2013]:
-// f_pb,i = -p_b / m_i sum_j (V_i^2 + V_j^2) grad W_ij. It moves particles towards even spacing, not the fluid.
+// f_pb,i = -p_b / m_i sum_j (V_i^2 + V_j^2) grad W_ij. It moves particles towards even spacing, not the
+// fluid.
 #include "solver/terms/pressure_force.hpp"
 
 namespace slurry {
 
 struct BackgroundPressure {
-    template <class P> struct Sums {
-        P background_x{}, background_y{};
-    };
+    template <class P> struct Sums { P background_x{}, background_y{}; };
     template <class P>
     static void add(Sums<P>& sums, const Pair<P>& pair, const ForceView<P>& i, const ForceView<P>& j) {
         const P weight = force_weight(pair, i, j);

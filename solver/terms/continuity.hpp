@@ -6,12 +6,11 @@
 namespace slurry {
 
 struct Continuity {
-    template <class P> struct Sums {
-        P compression{};
-    };
+    template <class P> struct Sums { P compression{}; };
     template <class P>
     static void add(Sums<P>& sums, const Pair<P>& pair, const RateView<P>& i, const RateView<P>& j) {
-        const P approach = (i.velocity_x() - j.velocity_x()) * pair.dx + (i.velocity_y() - j.velocity_y()) * pair.dy;
+        const P approach =
+            (i.velocity_x() - j.velocity_x()) * pair.dx + (i.velocity_y() - j.velocity_y()) * pair.dy;
         sums.compression += j.volume() * pair.slope * approach;
     }
     template <class P, class Real>

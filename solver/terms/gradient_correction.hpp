@@ -1,8 +1,8 @@
 #pragma once
 // Continuity with the kernel gradient correction of Eqs. 2.21 and 2.22 [wang2014, bonet1999].
 //
-// L_i is the same for all pairs of i, so sum_j V_j v_ij . (L_i grad W_ij) = L_i : sum_j V_j v_ij (x) grad W_ij. Both
-// sums fit in one sweep and are contracted afterwards; L needs no pass of its own.
+// L_i is the same for all pairs of i, so sum_j V_j v_ij . (L_i grad W_ij) = L_i : sum_j V_j v_ij (x) grad
+// W_ij. Both sums fit in one sweep and are contracted afterwards; L needs no pass of its own.
 #include "solver/loop/pair.hpp"
 #include "solver/terms/views.hpp"
 
@@ -31,7 +31,8 @@ struct CorrectedContinuity {
     static void finish(const Sums<P>& sums, const RateView<P>& i, const RateCoefficients<Real>& /*unused*/,
                        Rate<P>& result) {
         const P determinant = sums.moment_xx * sums.moment_yy - sums.moment_xy * sums.moment_xy;
-        // det M is 1 with full support; a particle with next to no neighbours has no L and keeps the plain gradient.
+        // det M is 1 with full support; a particle with next to no neighbours has no L and keeps the plain
+        // gradient.
         const P plain = sums.gradient_xx + sums.gradient_yy;
         const P adjugate = sums.moment_yy * sums.gradient_xx + sums.moment_xx * sums.gradient_yy -
                            sums.moment_xy * (sums.gradient_xy + sums.gradient_yx);

@@ -27,7 +27,8 @@ std::vector<TermReason> explain_terms(const Scene& scene) {
         {"density diffusion (Molteni & Colagrossi 2009)", terms.density_diffusion,
          fmt::format("numerics.density_diffusion = {}", numerics.density_diffusion)},
         {"hydrostatic part of the density diffusion", terms.hydrostatic_diffusion,
-         terms.hydrostatic_diffusion ? "fluid.body_force is not zero" : "no body force, or no density diffusion"},
+         terms.hydrostatic_diffusion ? "fluid.body_force is not zero"
+                                     : "no body force, or no density diffusion"},
         {"pressure force (2.15)", true, "always"},
         {"viscous force (2.15)", terms.viscosity,
          fmt::format("fluid.dynamic_viscosity = {} Pa s", scene.fluid.dynamic_viscosity)},

@@ -4,7 +4,8 @@
 
 namespace slurry {
 
-// Density rate (half step). fluid_volume is 0 for dummies: terms between fluid particles only are weighted with it.
+// Density rate (half step). fluid_volume is 0 for dummies: terms between fluid particles only are weighted
+// with it.
 template <class P> struct RateView {
     Fields<P> field;
     const P& x() const { return field[0]; }
@@ -19,8 +20,8 @@ template <class P> struct Rate {
     P density_rate; // kg/(m3 s)
 };
 template <class Real> struct RateCoefficients {
-    Real diffusivity;                // delta h c, m2/s
-    Real density_slope_x;            // hydrostatic: rho0 f / c^2, kg/m4
+    Real diffusivity;     // delta h c, m2/s
+    Real density_slope_x; // hydrostatic: rho0 f / c^2, kg/m4
     Real density_slope_y;
 };
 
@@ -45,7 +46,9 @@ template <class P> struct ForceView {
     const P& y() const { return field[1]; }
     const P& velocity_x() const { return field[2]; }
     const P& velocity_y() const { return field[3]; }
-    const P& shift_momentum_x() const { return field[4]; } // rho (advection velocity - velocity); 0 for dummies
+    const P& shift_momentum_x() const {
+        return field[4];
+    } // rho (advection velocity - velocity); 0 for dummies
     const P& shift_momentum_y() const { return field[5]; }
     const P& volume() const { return field[6]; }
     const P& volume_pressure() const { return field[7]; } // volume times pressure

@@ -1,14 +1,13 @@
 #pragma once
 // Viscous force, second term of Eq. 2.15 [wang2014, morris1997]:
-// dv_i/dt = 1/m_i sum_j (V_i^2 + V_j^2) eta v_ij (dW/dr) / r. The harmonic mean of Eq. 2.15 is eta itself in one fluid.
+// dv_i/dt = 1/m_i sum_j (V_i^2 + V_j^2) eta v_ij (dW/dr) / r. The harmonic mean of Eq. 2.15 is eta itself in
+// one fluid.
 #include "solver/terms/pressure_force.hpp"
 
 namespace slurry {
 
 struct ViscousForce {
-    template <class P> struct Sums {
-        P viscous_x{}, viscous_y{};
-    };
+    template <class P> struct Sums { P viscous_x{}, viscous_y{}; };
     template <class P>
     static void add(Sums<P>& sums, const Pair<P>& pair, const ForceView<P>& i, const ForceView<P>& j) {
         const P weight = force_weight(pair, i, j);

@@ -7,9 +7,7 @@ namespace slurry {
 
 // sum_f v_f W_df / sum_f W_df; the caller reflects it about the wall's velocity (Eq. 2.16).
 struct VelocityExtrapolation {
-    template <class P> struct Sums {
-        P kernel{}, velocity_x{}, velocity_y{};
-    };
+    template <class P> struct Sums { P kernel{}, velocity_x{}, velocity_y{}; };
     template <class P, class View>
     static void add(Sums<P>& sums, const Pair<P>& pair, const View& /*unused*/, const View& fluid) {
         sums.kernel += pair.kernel;
@@ -17,8 +15,8 @@ struct VelocityExtrapolation {
         sums.velocity_y += pair.kernel * fluid.velocity_y();
     }
     template <class P, class View, class Real>
-    static void finish(const Sums<P>& sums, const View& /*unused*/, const ExtrapolationCoefficients<Real>& /*unused*/,
-                       Extrapolation<P>& result) {
+    static void finish(const Sums<P>& sums, const View& /*unused*/,
+                       const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
         const P zero{};
         const P inverse = sums.kernel > zero ? 1 / sums.kernel : zero;
         result.kernel_sum = sums.kernel;
@@ -29,11 +27,10 @@ struct VelocityExtrapolation {
 
 // Eq. 2.17: (sum_f p_f W_df + (f - a_wall) . sum_f rho_f r_df W_df) / sum_f W_df
 struct PressureExtrapolation {
-    template <class P> struct Sums {
-        P weight{}, pressure{}, lever_x{}, lever_y{};
-    };
+    template <class P> struct Sums { P weight{}, pressure{}, lever_x{}, lever_y{}; };
     template <class P>
-    static void add(Sums<P>& sums, const Pair<P>& pair, const ForceView<P>& /*unused*/, const ForceView<P>& fluid) {
+    static void add(Sums<P>& sums, const Pair<P>& pair, const ForceView<P>& /*unused*/,
+                    const ForceView<P>& fluid) {
         const P number_weight = pair.kernel / fluid.volume();
         sums.weight += pair.kernel;
         sums.pressure += number_weight * fluid.volume_pressure();

@@ -65,7 +65,8 @@ std::vector<double> doubles_of(std::vector<double> first, const std::vector<doub
 } // namespace
 
 Recorder::Recorder(const Scene& scene, const Region& region, ResultFile& file, long steps, double time_step)
-    : scene_(scene), region_(region), file_(file), series_due_(evenly_due(steps, scene.output.series_samples, true)),
+    : scene_(scene), region_(region), file_(file),
+      series_due_(evenly_due(steps, scene.output.series_samples, true)),
       probes_due_(evenly_due(steps, scene.output.probe_samples, false)),
       snapshot_due_(static_cast<std::size_t>(steps) + 1, false) {
     for (const double time : scene.output.snapshot_times) {
@@ -79,8 +80,9 @@ Recorder::Recorder(const Scene& scene, const Region& region, ResultFile& file, l
 void Recorder::begin_probes() {
     for (const ProbeScene& probe : scene_.probes) {
         if (const auto* on_wall = std::get_if<WallProbe>(&probe.kind)) {
-            const auto wall = std::find_if(region_.walls().begin(), region_.walls().end(),
-                                           [&](const Wall& candidate) { return candidate.name() == on_wall->wall; });
+            const auto wall =
+                std::find_if(region_.walls().begin(), region_.walls().end(),
+                             [&](const Wall& candidate) { return candidate.name() == on_wall->wall; });
             WallSamples samples{&probe, &*wall, wall->sample(on_wall->points)};
             std::vector<double> arc_length, x, y;
             for (const WallPoint& point : samples.points) {
@@ -115,8 +117,8 @@ void Recorder::record(const Particles& particles, long step) {
 
 void Recorder::record_series(const Particles& particles) {
     const OrderedFluid fluid(particles.fluid, scene_.domain);
-    const Totals totals = fluid_totals(fluid.velocity_x, fluid.velocity_y, fluid.density, particles.fluid.mass,
-                                       scene_.fluid.density);
+    const Totals totals = fluid_totals(fluid.velocity_x, fluid.velocity_y, fluid.density,
+                                       particles.fluid.mass, scene_.fluid.density);
     file_.begin_sample(particles.time);
     file_.add_sample("kinetic_energy", "J/m", totals.kinetic_energy);
     file_.add_sample("momentum_x", "kg/s", totals.momentum.x());

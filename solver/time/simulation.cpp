@@ -29,11 +29,21 @@ constexpr long checks_per_run = 50;
 
 // Steps of equal length that end exactly at the end time.
 long step_count(const Scene& scene) {
-    return std::max(1L, static_cast<long>(std::ceil(scene.output.end_time / largest_time_step(scene) * (1 - 1e-12))));
+    return std::max(
+        1L, static_cast<long>(std::ceil(scene.output.end_time / largest_time_step(scene) * (1 - 1e-12))));
 }
 
-void write_run_attributes(ResultFile& file, const Particles& particles, long steps, double time_step, int threads,
-                          const PhaseClock& clock) {
+// Waking a thread takes as long as the pairs of some hundred particles. The answer is the same for any
+// number.
+int useful_threads(int wanted, const Particles& particles) {
+    constexpr std::size_t least_particles_per_thread = 500;
+    const std::size_t shares =
+        (particles.fluid.size() + particles.dummies.size()) / least_particles_per_thread;
+    return std::clamp(static_cast<int>(shares), 1, wanted);
+}
+
+void write_run_attributes(ResultFile& file, const Particles& particles, long steps, double time_step,
+                          int threads, const PhaseClock& clock) {
     const double seconds = clock.elapsed();
     const auto fluid = static_cast<double>(particles.fluid.size());
     const auto dummies = static_cast<double>(particles.dummies.size());
@@ -56,7 +66,6 @@ void write_run_attributes(ResultFile& file, const Particles& particles, long ste
 } // namespace
 
 RunSummary run_scene(const Scene& scene, const RunOptions& options) {
-    omp_set_num_threads(options.threads);
     PhaseClock clock;
     const Region region(scene);
     ResultFile file(options.folder, scene, SLURRY_VERSION, options.overwrite);
@@ -65,6 +74,8 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
         const PhaseClock::Scope scope(clock, "start");
         particles = arrange_particles(scene, region);
     }
+    const int threads = useful_threads(options.threads, particles);
+    omp_set_num_threads(threads);
     const auto interactions = make_interactions(scene);
     const long steps = step_count(scene);
     const double time_step = scene.output.end_time / static_cast<double>(steps);
@@ -79,14 +90,15 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
             advance(particles, *interactions, scene.fluid, sound_speed, time_step, clock);
             const PhaseClock::Scope scope(clock, "output and checks");
             if (step % check_interval == 0 || step == steps) {
-                check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing, step);
+                check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing,
+                                step);
             }
             recorder.record(particles, step);
             progress.update(particles.time, step);
         }
     }
-    write_run_attributes(file, particles, steps, time_step, options.threads, clock);
-    const RunSummary summary{file.finish(), steps};
+    write_run_attributes(file, particles, steps, time_step, threads, clock);
+    RunSummary summary{file.finish(), steps};
     if (!options.quiet) {
         const auto count = particles.fluid.size() + particles.dummies.size();
         fmt::print(std::cout, "{}\n{}", summary.result.string(),

@@ -19,7 +19,8 @@ struct RunSummary {
     long steps = 0;
 };
 
-// Runs the scene and writes result.h5 and result.xdmf into the folder. Throws GeometryError, OutputError, RunError.
+// Runs the scene and writes result.h5 and result.xdmf into the folder. Throws GeometryError, OutputError,
+// RunError.
 RunSummary run_scene(const Scene& scene, const RunOptions& options);
 
 // What `slurry info` prints: particles, steps, and which terms run and why. Throws GeometryError.

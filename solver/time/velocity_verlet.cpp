@@ -54,7 +54,8 @@ void compute_accelerations(Particles& particles, Interactions& interactions, con
         const PhaseClock::Scope scope(clock, "volumes");
         interactions.compute_volumes(particles);
         const EquationOfState equation_of_state{properties.density, sound_speed};
-        for_each(fluid, [&](std::size_t i) { fluid.pressure[i] = equation_of_state.pressure(fluid.density[i]); });
+        for_each(fluid,
+                 [&](std::size_t i) { fluid.pressure[i] = equation_of_state.pressure(fluid.density[i]); });
     }
     {
         const PhaseClock::Scope scope(clock, "walls");
@@ -70,8 +71,8 @@ void compute_accelerations(Particles& particles, Interactions& interactions, con
 
 } // namespace
 
-void prepare_first_step(Particles& particles, Interactions& interactions, const Fluid& fluid, double sound_speed,
-                        PhaseClock& clock) {
+void prepare_first_step(Particles& particles, Interactions& interactions, const Fluid& fluid,
+                        double sound_speed, PhaseClock& clock) {
     interactions.refresh_neighbours(particles);
     compute_accelerations(particles, interactions, fluid, sound_speed, clock);
 }
@@ -89,13 +90,15 @@ void advance(Particles& particles, Interactions& interactions, const Fluid& flui
     refresh_neighbours();
     {
         const PhaseClock::Scope scope(clock, "density rate");
-        interactions.compute_density_rate(particles); // at the half step, so that density is second order in time
+        interactions.compute_density_rate(
+            particles); // at the half step, so that density is second order in time
     }
     update_density(particles.fluid, time_step);
     drift(particles, time_step / 2); // with the velocity of the half step
 
     refresh_neighbours();
-    compute_accelerations(particles, interactions, fluid, sound_speed, clock); // with the new density and positions
+    compute_accelerations(particles, interactions, fluid, sound_speed,
+                          clock); // with the new density and positions
     kick(particles.fluid, time_step / 2);
 }
 

@@ -11,8 +11,8 @@ namespace {
 [[noreturn]] void stop(const Particles& particles, std::size_t i, long step, const std::string& fault,
                        const char* advice) {
     const FluidParticles& fluid = particles.fluid;
-    throw RunError(fmt::format("step {}, time {:.6g} s, particle {} at ({:.6g}, {:.6g}) m: {}; {}", step, particles.time,
-                               fluid.identity[i], fluid.x[i], fluid.y[i], fault, advice));
+    throw RunError(fmt::format("step {}, time {:.6g} s, particle {} at ({:.6g}, {:.6g}) m: {}; {}", step,
+                               particles.time, fluid.identity[i], fluid.x[i], fluid.y[i], fault, advice));
 }
 
 } // namespace
@@ -32,13 +32,15 @@ void check_particles(const Particles& particles, const Region& region, double re
         }
     }
     for (std::size_t i = 0; i < fluid.size(); ++i) {
-        const double sum = fluid.x[i] + fluid.y[i] + fluid.velocity_x[i] + fluid.velocity_y[i] + fluid.density[i];
+        const double sum =
+            fluid.x[i] + fluid.y[i] + fluid.velocity_x[i] + fluid.velocity_y[i] + fluid.density[i];
         if (!std::isfinite(sum)) {
             stop(particles, i, step, "its state is not a finite number",
                  "reduce numerics.acoustic_cfl, or check walls and start for particles that coincide");
         }
         if (std::abs(fluid.density[i] / reference_density - 1) > largest_density_error) {
-            stop(particles, i, step, fmt::format("its density is {:.6g} kg/m3, more than 10 % off", fluid.density[i]),
+            stop(particles, i, step,
+                 fmt::format("its density is {:.6g} kg/m3, more than 10 % off", fluid.density[i]),
                  "raise numerics.sound_speed to 10 times the top speed or reduce numerics.acoustic_cfl");
         }
     }

@@ -13,8 +13,8 @@ class RunError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Throws RunError when a fluid particle's state is not finite, its density is off by more than 10 %, or it is more
-// than half a spacing behind a wall.
+// Throws RunError when a fluid particle's state is not finite, its density is off by more than 10 %, or it is
+// more than half a spacing behind a wall.
 void check_particles(const Particles& particles, const Region& region, double reference_density,
                      double particle_spacing, long step);
 

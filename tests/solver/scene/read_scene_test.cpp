@@ -163,6 +163,18 @@ TEST_F(ReadScene, RefusesWhatIsNoSceneFile) {
               std::string::npos);
 }
 
+// Each of these aborts toml++ 3.3 or is undefined behaviour in it.
+TEST_F(ReadScene, SurvivesWhatTheParserDoesNot) {
+    EXPECT_TRUE(refusal("[.a]").starts_with("scene.toml:1:2: found no TOML"));
+    EXPECT_TRUE(refusal("[fluid]\n\u00e9 = 1").starts_with("scene.toml:2:1: found a character beyond ASCII"));
+    EXPECT_TRUE(
+        refusal("title = \"\u00e9\" \u00e9").starts_with("scene.toml:1:14: found a character beyond"));
+    EXPECT_TRUE(
+        refusal("a = \"\"\"x\"y\"\"\" \u00e9").starts_with("scene.toml:1:5: found a string of several"));
+    EXPECT_TRUE(refusal("# \u00e9 \"\n" + full_scene).starts_with("ACCEPTED"));
+    EXPECT_TRUE(refusal("\xEF\xBB\xBF" + full_scene).starts_with("ACCEPTED"));
+}
+
 TEST_F(ReadScene, SurvivesDeepNesting) {
     std::string dotted = "a";
     for (int level = 1; level < 100'000; ++level) {

@@ -1,0 +1,206 @@
+#pragma once
+// Eqs. 2.14 to 2.22 as they are written, particle by particle over all particles and all their periodic images: no
+// neighbour lists, no fused sums, no vectors. What the pair loops are held against.
+#include "solver/particles/particles.hpp"
+#include "solver/scene/scene.hpp"
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace slurry::testing {
+
+class AllPairs {
+  public:
+    AllPairs(const Scene& scene, Particles& particles)
+        : scene_(scene), fluid_(particles.fluid), dummies_(particles.dummies), h_(scene.numerics.smoothing_length()) {
+        find_pairs();
+    }
+
+    // Every pass of a time step, into the particles.
+    void evaluate() {
+        compute_volumes();
+        extrapolate_to_walls();
+        compute_density_rate();
+        compute_forces();
+    }
+
+  private:
+    void compute_volumes() {
+        for (std::size_t i = 0; i < fluid_.size(); ++i) {
+            double sum = kernel(0);
+            visit(i, [&](std::size_t j, const Vector& r) {
+                sum += kernel(r.norm()) * (is_fluid(j) ? 1 : volume(j) / std::pow(scene_.numerics.particle_spacing, 2));
+            });
+            fluid_.volume[i] = scene_.numerics.particle_volume == ParticleVolume::number_density
+                                   ? 1 / sum
+                                   : fluid_.mass / fluid_.density[i];
+        }
+    }
+
+    // Eqs. 2.16 and 2.17
+    void extrapolate_to_walls() {
+        for (std::size_t d = 0; d < dummies_.size(); ++d) {
+            double weight = 0;
+            double pressure = 0;
+            Vector velocity = Vector::Zero();
+            Vector lever = Vector::Zero();
+            visit(fluid_.size() + d, [&](std::size_t f, const Vector& r) {
+                if (is_fluid(f)) {
+                    const double w = kernel(r.norm());
+                    weight += w;
+                    velocity += velocity_of(f) * w;
+                    pressure += fluid_.pressure[f] * w;
+                    lever += fluid_.mass / fluid_.volume[f] * w * r;
+                }
+            });
+            const double inverse = weight > 0 ? 1 / weight : 0;
+            const Vector reflected = 2 * wall_velocity(d) - velocity * inverse;
+            dummies_.velocity_x[d] = reflected.x();
+            dummies_.velocity_y[d] = reflected.y();
+            dummies_.pressure[d] = (pressure + scene_.fluid.body_force.dot(lever)) * inverse;
+        }
+    }
+
+    // Eq. 2.14 with 2.21 and 2.22, and the density diffusion [molteni2009, fourtakas2019]
+    void compute_density_rate() {
+        const Numerics& numerics = scene_.numerics;
+        const Vector density_slope =
+            scene_.fluid.density / (numerics.sound_speed * numerics.sound_speed) * scene_.fluid.body_force;
+        for (std::size_t i = 0; i < fluid_.size(); ++i) {
+            const Matrix correction = numerics.gradient_correction ? correction_matrix(i) : Matrix::Identity();
+            double rate = 0;
+            visit(i, [&](std::size_t j, const Vector& r) {
+                const double volume_j = is_fluid(j) ? fluid_.mass / fluid_.density[j] : volume(j);
+                const Vector gradient = kernel_slope(r.norm()) * r.normalized();
+                const Vector velocity = velocity_of(i) - continuity_velocity(j);
+                rate += fluid_.density[i] * volume_j * velocity.dot(correction * gradient);
+                if (is_fluid(j)) {
+                    const double difference = fluid_.density[j] - fluid_.density[i] + density_slope.dot(r);
+                    const Vector psi = 2 * difference / r.squaredNorm() * -r;
+                    rate += numerics.density_diffusion * h_ * numerics.sound_speed * psi.dot(gradient) * volume_j;
+                }
+            });
+            fluid_.density_rate[i] = rate;
+        }
+    }
+
+    // Eqs. 2.15, 2.19 and 2.20
+    void compute_forces() {
+        const double ratio = scene_.numerics.background_pressure_ratio;
+        const double background = ratio * scene_.fluid.density * std::pow(scene_.numerics.sound_speed, 2);
+        const bool tensor = ratio > 0 && scene_.numerics.advection_tensor;
+        for (std::size_t i = 0; i < fluid_.size(); ++i) {
+            Vector force = Vector::Zero();
+            Vector shift = Vector::Zero();
+            visit(i, [&](std::size_t j, const Vector& r) {
+                const double squares = std::pow(volume(i), 2) + std::pow(volume(j), 2);
+                const double slope = kernel_slope(r.norm());
+                const Vector gradient = slope * r.normalized();
+                const double rho_i = fluid_.mass / volume(i);
+                const double rho_j = fluid_.mass / volume(j);
+                const double mean_pressure = (pressure(i) * rho_j + pressure(j) * rho_i) / (rho_i + rho_j);
+                force -= squares * mean_pressure * gradient;
+                force += squares * scene_.fluid.dynamic_viscosity * (velocity_of(i) - velocity_of(j)) / r.norm() * slope;
+                if (tensor) {
+                    force += squares * (advection(i) + advection(j)) / 2 * gradient;
+                }
+                shift -= squares * background * gradient;
+            });
+            fluid_.acceleration_x[i] = force.x() / fluid_.mass;
+            fluid_.acceleration_y[i] = force.y() / fluid_.mass;
+            fluid_.background_x[i] = shift.x() / fluid_.mass;
+            fluid_.background_y[i] = shift.y() / fluid_.mass;
+        }
+    }
+
+    struct Other {
+        std::size_t j;
+        Vector r; // r_ij
+    };
+
+    void find_pairs() {
+        const Vector length = scene_.domain.size();
+        const int columns = scene_.domain.periodic[0] ? 1 : 0;
+        const int rows = scene_.domain.periodic[1] ? 1 : 0;
+        const std::size_t count = fluid_.size() + dummies_.size();
+        others_.resize(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t j = 0; j < count; ++j) {
+                for (int column = -columns; column <= columns; ++column) {
+                    for (int row = -rows; row <= rows; ++row) {
+                        const Vector r = position(i) - position(j) - Vector(column * length.x(), row * length.y());
+                        if (r.norm() < 3 * h_ && (i != j || column != 0 || row != 0)) {
+                            others_[i].push_back({j, r});
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    // Calls visit(j, r_ij) for every particle and image in reach of particle i, itself excepted.
+    template <class Visit> void visit(std::size_t i, Visit&& visit) const {
+        for (const Other& other : others_[i]) {
+            visit(other.j, other.r);
+        }
+    }
+
+    // Eq. 2.4 in two dimensions, and its derivative
+    [[nodiscard]] double kernel(double r) const { return branches(r / h_, 5) / (h_ * h_); }
+    [[nodiscard]] double kernel_slope(double r) const { return -5 * branches(r / h_, 4) / (h_ * h_ * h_); }
+    [[nodiscard]] static double branches(double q, int power) {
+        const double lambda = 7 / (478 * std::numbers::pi);
+        double sum = q < 3 ? std::pow(3 - q, power) : 0;
+        sum -= q < 2 ? 6 * std::pow(2 - q, power) : 0;
+        sum += q < 1 ? 15 * std::pow(1 - q, power) : 0;
+        return lambda * sum;
+    }
+
+    [[nodiscard]] Matrix correction_matrix(std::size_t i) const {
+        Matrix moment = Matrix::Zero();
+        visit(i, [&](std::size_t j, const Vector& r) {
+            const double volume_j = is_fluid(j) ? fluid_.mass / fluid_.density[j] : volume(j);
+            moment -= volume_j * kernel_slope(r.norm()) * r.normalized() * r.transpose();
+        });
+        return moment.inverse();
+    }
+
+    [[nodiscard]] bool is_fluid(std::size_t j) const { return j < fluid_.size(); }
+    [[nodiscard]] Vector position(std::size_t j) const { return pick(j, fluid_.x, fluid_.y, dummies_.x, dummies_.y); }
+    [[nodiscard]] Vector velocity_of(std::size_t j) const {
+        return pick(j, fluid_.velocity_x, fluid_.velocity_y, dummies_.velocity_x, dummies_.velocity_y);
+    }
+    [[nodiscard]] Vector wall_velocity(std::size_t d) const {
+        return dummies_.wall_velocity[static_cast<std::size_t>(dummies_.wall[d])];
+    }
+    [[nodiscard]] Vector continuity_velocity(std::size_t j) const {
+        const bool walls_own = scene_.numerics.wall_continuity == WallContinuity::wall_velocity;
+        return !is_fluid(j) && walls_own ? wall_velocity(j - fluid_.size()) : velocity_of(j);
+    }
+    [[nodiscard]] double volume(std::size_t j) const {
+        return is_fluid(j) ? fluid_.volume[j] : dummies_.volume[j - fluid_.size()];
+    }
+    [[nodiscard]] double pressure(std::size_t j) const {
+        return is_fluid(j) ? fluid_.pressure[j] : dummies_.pressure[j - fluid_.size()];
+    }
+    [[nodiscard]] Matrix advection(std::size_t j) const {
+        return is_fluid(j) ? Matrix(fluid_.density[j] * velocity_of(j) * Vector(fluid_.shift_x[j], fluid_.shift_y[j]).transpose())
+                           : Matrix(Matrix::Zero());
+    }
+    [[nodiscard]] Vector pick(std::size_t j, const std::vector<double>& fluid_x, const std::vector<double>& fluid_y,
+                              const std::vector<double>& dummy_x, const std::vector<double>& dummy_y) const {
+        const std::size_t d = j - fluid_.size();
+        return is_fluid(j) ? Vector(fluid_x[j], fluid_y[j]) : Vector(dummy_x[d], dummy_y[d]);
+    }
+
+    const Scene& scene_;
+    FluidParticles& fluid_;
+    DummyParticles& dummies_;
+    double h_;
+    std::vector<std::vector<Other>> others_; // per particle
+};
+
+} // namespace slurry::testing

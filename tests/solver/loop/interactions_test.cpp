@@ -1,0 +1,151 @@
+// The wide pair loops against plain numbers, against all pairs, and against themselves with other thread counts.
+#include "solver/loop/interactions.hpp"
+
+#include "tests/solver/loop/all_pairs.hpp"
+#include "tests/solver/scenes_for_tests.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <string>
+
+namespace slurry::testing {
+namespace {
+
+constexpr unsigned compositions = 256;
+
+// One bit a choice; 11 x 11 particles, so that the last block of any width is not full.
+Scene composed(unsigned bits, bool walls) {
+    Scene scene = walls ? flat_channel(11, 1.5) : doubly_periodic(11);
+    jitter(scene, 0.25);
+    const auto bit = [bits](unsigned k) { return (bits >> k & 1U) != 0; };
+    scene.numerics.gradient_correction = bit(0);
+    scene.numerics.density_diffusion = bit(1) ? 0.1 : 0;
+    scene.fluid.body_force = bit(2) ? Vector(0.7, -9.81) : Vector(0, 0);
+    scene.fluid.dynamic_viscosity = bit(3) ? 2 : 0;
+    scene.numerics.background_pressure_ratio = bit(4) ? 0.8 : 0;
+    scene.numerics.advection_tensor = bit(5);
+    scene.numerics.particle_volume = bit(6) ? ParticleVolume::number_density : ParticleVolume::mass_over_density;
+    scene.numerics.wall_continuity = bit(7) ? WallContinuity::extrapolated : WallContinuity::wall_velocity;
+    return scene;
+}
+
+Particles disordered(const Scene& scene) {
+    Particles particles = arrange(scene);
+    disorder(particles, scene);
+    return particles;
+}
+
+// Particle by particle, relative to the largest value: what a sum of cancelling terms can promise.
+void expect_close(const std::vector<double>& values, const std::vector<double>& expected, double tolerance,
+                  const char* name) {
+    ASSERT_EQ(values.size(), expected.size()) << name;
+    const double scale = largest(expected);
+    double error = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const double difference = std::abs(values[k] - expected[k]);
+        error = difference <= error ? error : difference; // keeps NaN
+    }
+    EXPECT_TRUE(std::isfinite(scale)) << name;
+    EXPECT_LE(error, tolerance * scale) << name;
+}
+
+void expect_same_results(const Particles& particles, const Particles& expected, double tolerance) {
+    const FluidParticles& fluid = particles.fluid;
+    ASSERT_EQ(fluid.identity, expected.fluid.identity);
+    expect_close(fluid.volume, expected.fluid.volume, tolerance, "volume");
+    expect_close(fluid.density_rate, expected.fluid.density_rate, tolerance, "density rate");
+    expect_close(fluid.acceleration_x, expected.fluid.acceleration_x, tolerance, "acceleration x");
+    expect_close(fluid.acceleration_y, expected.fluid.acceleration_y, tolerance, "acceleration y");
+    expect_close(fluid.background_x, expected.fluid.background_x, tolerance, "background x");
+    expect_close(fluid.background_y, expected.fluid.background_y, tolerance, "background y");
+    expect_close(particles.dummies.velocity_x, expected.dummies.velocity_x, tolerance, "dummy velocity x");
+    expect_close(particles.dummies.velocity_y, expected.dummies.velocity_y, tolerance, "dummy velocity y");
+    expect_close(particles.dummies.pressure, expected.dummies.pressure, tolerance, "dummy pressure");
+}
+
+Particles evaluated(const Scene& scene, LoopWidth width) {
+    Particles particles = disordered(scene);
+    const auto interactions = make_interactions(scene, width);
+    evaluate(*interactions, particles);
+    return particles;
+}
+
+TEST(Interactions, NativeWidthAgreesWithPlainNumbersInEveryComposition) {
+    for (unsigned bits = 0; bits < compositions; ++bits) {
+        for (const bool walls : {false, true}) {
+            SCOPED_TRACE("composition " + std::to_string(bits) + (walls ? " with walls" : " without walls"));
+            const Scene scene = composed(bits, walls);
+            expect_same_results(evaluated(scene, LoopWidth::native), evaluated(scene, LoopWidth::plain), 1e-12);
+        }
+    }
+}
+
+// The softening of 1e-12 h^2 under the root of the distance, which the equations do not have, sets the tolerance.
+TEST(Interactions, AgreeWithTheEquationsOverAllPairsInEveryComposition) {
+    for (unsigned bits = 0; bits < compositions; ++bits) {
+        SCOPED_TRACE("composition " + std::to_string(bits));
+        const Scene scene = composed(bits, bits % 5 != 0);
+        const Particles particles = evaluated(scene, LoopWidth::native);
+        Particles expected = disordered(scene);
+        make_interactions(scene)->refresh_neighbours(expected); // the same order
+        AllPairs(scene, expected).evaluate();
+        expect_same_results(particles, expected, 1e-9);
+    }
+}
+
+TEST(Interactions, AgreeWithTheEquationsAtALargerSmoothingLength) {
+    Scene scene = composed(compositions - 1, true);
+    scene.numerics.smoothing_ratio = 1.3;
+    const Particles particles = evaluated(scene, LoopWidth::native);
+    Particles expected = disordered(scene);
+    make_interactions(scene)->refresh_neighbours(expected);
+    AllPairs(scene, expected).evaluate();
+    expect_same_results(particles, expected, 1e-9);
+}
+
+TEST(Interactions, DoNotDependOnTheNumberOfThreads) {
+    const int threads_before = omp_get_max_threads();
+    const Scene scene = composed(compositions - 1, true);
+    omp_set_num_threads(1);
+    const Particles one = evaluated(scene, LoopWidth::native);
+    for (const int threads : {2, 3}) {
+        omp_set_num_threads(threads);
+        expect_same_results(evaluated(scene, LoopWidth::native), one, 0);
+    }
+    omp_set_num_threads(threads_before);
+}
+
+TEST(Interactions, StayRightBetweenTwoRebuilds) {
+    const Scene scene = composed(compositions - 1, true);
+    Particles particles = disordered(scene);
+    const auto kept = make_interactions(scene);
+    kept->refresh_neighbours(particles);
+    for (std::size_t i = 0; i < particles.fluid.size(); ++i) { // less than the skin, against one another
+        particles.fluid.x[i] += 0.1 * scene.numerics.particle_spacing * particles.fluid.velocity_x[i];
+        particles.fluid.y[i] += 0.1 * scene.numerics.particle_spacing * particles.fluid.velocity_y[i];
+    }
+    Particles expected = particles;
+    evaluate(*kept, particles);
+    EXPECT_EQ(kept->rebuilds(), 1);
+    AllPairs(scene, expected).evaluate();
+    expect_same_results(particles, expected, 1e-9);
+}
+
+TEST(Interactions, RebuildForRelativeMotionOnly) {
+    const Scene scene = doubly_periodic(11);
+    Particles particles = arrange(scene);
+    const auto interactions = make_interactions(scene);
+    interactions->refresh_neighbours(particles);
+    for (double& x : particles.fluid.x) {
+        x += 0.6;
+    }
+    interactions->refresh_neighbours(particles);
+    EXPECT_EQ(interactions->rebuilds(), 1);
+    particles.fluid.x[40] += scene.numerics.particle_spacing;
+    interactions->refresh_neighbours(particles);
+    EXPECT_EQ(interactions->rebuilds(), 2);
+}
+
+} // namespace
+} // namespace slurry::testing

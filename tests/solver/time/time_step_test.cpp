@@ -1,0 +1,39 @@
+// The time step of Eq. 2.35.
+#include "solver/time/time_step.hpp"
+
+#include "tests/solver/scenes_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+namespace slurry::testing {
+namespace {
+
+Scene scene_of(double viscosity, double force) {
+    Scene scene = doubly_periodic(10);
+    scene.numerics.smoothing_ratio = 1.2; // h = 0.12
+    scene.fluid = {1000, viscosity, {0.6 * force, -0.8 * force}};
+    return scene;
+}
+
+TEST(TimeStep, AcousticLimit) {
+    EXPECT_DOUBLE_EQ(largest_time_step(scene_of(0, 0)), 0.25 * 0.12 / 10);
+    EXPECT_DOUBLE_EQ(largest_time_step(scene_of(1, 1)), 0.25 * 0.12 / 10); // the others are longer
+}
+
+TEST(TimeStep, ViscousLimit) {
+    EXPECT_DOUBLE_EQ(largest_time_step(scene_of(5e3, 1)), 0.25 * 0.12 * 0.12 / 5);
+}
+
+TEST(TimeStep, ForceLimit) { EXPECT_DOUBLE_EQ(largest_time_step(scene_of(1, 1e5)), 0.25 * std::sqrt(0.12 / 1e5)); }
+
+TEST(TimeStep, FactorsOfTheSceneReplaceTheQuarter) {
+    for (const auto& [viscosity, force] : {std::pair{0.0, 0.0}, {5e3, 0.0}, {0.0, 1e5}}) {
+        Scene scene = scene_of(viscosity, force);
+        const double before = largest_time_step(scene);
+        scene.numerics.acoustic_cfl = scene.numerics.viscous_cfl = scene.numerics.force_cfl = 0.125;
+        EXPECT_DOUBLE_EQ(largest_time_step(scene), before / 2);
+    }
+}
+
+} // namespace
+} // namespace slurry::testing

@@ -1,0 +1,116 @@
+// A run that goes wrong is stopped, with a message that says where.
+#include "solver/time/watchdog.hpp"
+
+#include "solver/time/time_step.hpp"
+#include "solver/time/velocity_verlet.hpp"
+#include "tests/solver/scenes_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace slurry::testing {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t culprit = 57;
+
+struct Watched {
+    Scene scene = flat_channel(12);
+    Region region{scene};
+    Particles particles = arrange_particles(scene, region);
+
+    Watched() {
+        particles.time = 0.125;
+        particles.fluid.identity[culprit] = 4711;
+        particles.fluid.x[culprit] = 0.25;
+        particles.fluid.y[culprit] = 0.75;
+    }
+    void check() const {
+        check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing, 89);
+    }
+    [[nodiscard]] std::string complaint() const {
+        try {
+            check();
+        } catch (const RunError& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+// One line that names step, time, particle, place and cause.
+void expect_complaint(const Watched& watched, const std::string& place, const std::string& cause) {
+    const std::string message = watched.complaint();
+    for (const std::string& part : {std::string("step 89"), std::string("0.125 s"), std::string("particle 4711"), place, cause}) {
+        EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
+    }
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+TEST(Watchdog, LetsAHealthyStatePass) { EXPECT_NO_THROW(Watched().check()); }
+
+TEST(Watchdog, StopsAtANumberThatIsNotFiniteInAnyPartOfTheState) {
+    for (const double bad : {not_a_number, std::numeric_limits<double>::infinity()}) {
+        for (auto array : {&FluidParticles::velocity_x, &FluidParticles::velocity_y, &FluidParticles::density}) {
+            Watched watched;
+            (watched.particles.fluid.*array)[culprit] = bad;
+            expect_complaint(watched, "(0.25, 0.75)", "not a finite number");
+        }
+        Watched lost;
+        lost.particles.fluid.x[culprit] = bad;
+        expect_complaint(lost, "0.75", "not a finite number");
+    }
+}
+
+TEST(Watchdog, StopsWhenADensityIsMoreThanTenPercentOff) {
+    for (const double density : {890.0, 1110.0}) {
+        Watched watched;
+        watched.particles.fluid.density[culprit] = density;
+        expect_complaint(watched, "(0.25, 0.75)", "density");
+    }
+    Watched within;
+    within.particles.fluid.density[culprit] = 1095;
+    EXPECT_NO_THROW(within.check());
+}
+
+TEST(Watchdog, StopsWhenAParticleIsBehindAWall) {
+    Watched watched;
+    watched.particles.fluid.y[culprit] = 1.25; // the lid is at 1.2, half a spacing is 0.042
+    expect_complaint(watched, "(0.25, 1.25)", "behind a wall");
+    watched.particles.fluid.y[culprit] = 1.24;
+    EXPECT_NO_THROW(watched.check());
+}
+
+TEST(Watchdog, FollowsWallsThatMove) {
+    Scene scene = core_scene({0, 0}, {3, 2}, {true, false}, 0.2);
+    scene.walls = {{"lid", LineShape{{0, 2}, {3, 2}}, FluidSide::below, {0, 0}},
+                   {"pad", CosineShape{0.5, 0.5, 3, 0}, FluidSide::above, {1, 0}}};
+    const Region region(scene);
+    Particles particles = arrange_particles(scene, region);
+    EXPECT_NO_THROW(check_particles(particles, region, 1000, 0.2, 1));
+    particles.time = 1.5; // half a period later the crest is where the trough was
+    EXPECT_THROW(check_particles(particles, region, 1000, 0.2, 2), RunError);
+}
+
+// Planted faults: the machinery in between survives them and the watchdog sees them.
+TEST(Watchdog, SeesAFaultPlantedBeforeSomeSteps) {
+    for (const double bad : {not_a_number, 1e6}) {
+        for (const auto array : {&FluidParticles::velocity_x, &FluidParticles::y, &FluidParticles::density}) {
+            Scene scene = flat_channel(12);
+            const Region region(scene);
+            Particles particles = arrange_particles(scene, region);
+            const auto interactions = make_interactions(scene);
+            PhaseClock clock;
+            prepare_first_step(particles, *interactions, scene.fluid, scene.numerics.sound_speed, clock);
+            (particles.fluid.*array)[culprit] = bad;
+            for (int step = 0; step < 5; ++step) {
+                advance(particles, *interactions, scene.fluid, scene.numerics.sound_speed, largest_time_step(scene), clock);
+            }
+            EXPECT_THROW(check_particles(particles, region, 1000, scene.numerics.particle_spacing, 5), RunError);
+        }
+    }
+}
+
+} // namespace
+} // namespace slurry::testing
