@@ -40,7 +40,8 @@ double angle_between(const Vector& from, const Vector& to) {
     return std::atan2(left_of(from).dot(to), from.dot(to));
 }
 
-Curve::Curve(std::vector<Piece> pieces, const Vector& period) : pieces_(std::move(pieces)), period_(period) {
+Curve::Curve(std::vector<Piece> pieces, Vector period)
+    : pieces_(std::move(pieces)), period_(std::move(period)) {
     for (std::size_t piece = 0; piece < pieces_.size(); ++piece)
         for (std::size_t i = 1; i < pieces_[piece].nodes.size(); ++i)
             subdivide(piece, pieces_[piece].nodes[i - 1], pieces_[piece].nodes[i], 0);

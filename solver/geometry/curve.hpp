@@ -52,7 +52,7 @@ class Curve {
   public:
     // Pieces joined end to end. `period` leads from the first point to its image, the last; zero for an open
     // curve.
-    Curve(std::vector<Piece> pieces, const Vector& period);
+    Curve(std::vector<Piece> pieces, Vector period);
 
     // Global minimum of the distance, periodic images of the curve included.
     [[nodiscard]] Foot nearest(const Vector& point) const;

@@ -75,9 +75,9 @@ std::span<const QuadraturePoint, 5> gauss_points() {
 }
 
 Spline::Spline(Kind kind, std::span<const double> x, std::span<const double> y)
-    : lower_(x.front()), upper_(x.back()),
-      spline_(allocate_spline(kind == Kind::periodic_cubic ? gsl_interp_cspline_periodic : gsl_interp_steffen,
-                              x.size())) {
+    : spline_(allocate_spline(kind == Kind::periodic_cubic ? gsl_interp_cspline_periodic : gsl_interp_steffen,
+                              x.size())),
+      lower_(x.front()), upper_(x.back()) {
     const ReturnCodes return_codes;
     require(gsl_spline_init(spline_.get(), x.data(), y.data(), x.size()), "spline");
 }

@@ -34,9 +34,9 @@ void NeighbourList::build(std::span<const double> x, std::span<const double> y, 
     for (std::size_t target = first; target < last; ++target) {
         targets_[target - first] = static_cast<std::uint32_t>(target);
     }
-    for (std::size_t longest = capacity_ + 1; longest > capacity_;) {
+    for (bool complete = false; !complete;) {
         entries_.resize(blocks * width_ * capacity_);
-        longest = 0;
+        std::size_t longest = 0;
 #pragma omp parallel for schedule(static) reduction(max : longest)
         for (std::ptrdiff_t signed_block = 0; signed_block < static_cast<std::ptrdiff_t>(blocks);
              ++signed_block) {
@@ -53,7 +53,8 @@ void NeighbourList::build(std::span<const double> x, std::span<const double> y, 
             }
             longest = std::max(longest, counts_[block]);
         }
-        if (longest > capacity_) {
+        complete = longest <= capacity_;
+        if (!complete) {
             capacity_ = longest + longest / 4;
             std::fill(counts_.begin(), counts_.end(), 0);
         }

@@ -4,6 +4,7 @@
 #include "solver/loop/interactions.hpp"
 #include "solver/loop/periodic_rows.hpp"
 #include "solver/loop/sweep.hpp"
+#include "solver/particles/run_error.hpp"
 #include "solver/terms/advection_tensor.hpp"
 #include "solver/terms/background_pressure.hpp"
 #include "solver/terms/continuity.hpp"
@@ -14,6 +15,9 @@
 #include "solver/terms/selection.hpp"
 #include "solver/terms/viscous_force.hpp"
 #include "solver/terms/wall_extrapolation.hpp"
+#include "solver/terms/wall_fit.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -45,8 +49,12 @@ template <class Real, int W> class PairInteractions final : public Interactions 
 
     void refresh_neighbours(Particles& particles) override {
         const double skin = skin_ratio * numerics_.particle_spacing;
-        if (rebuilds_ > 0 && periodic_.relative_displacement(particles) < skin) {
-            return;
+        if (rebuilds_ > 0) {
+            const double displacement = periodic_.relative_displacement(particles);
+            if (displacement < skin) {
+                return;
+            }
+            refuse_flight(particles, displacement);
         }
         const double reach = Kernel::support * numerics_.smoothing_length() + skin;
         periodic_.rebuild(particles, domain_, reach);
@@ -56,7 +64,12 @@ template <class Real, int W> class PairInteractions final : public Interactions 
         fluid_list_.build(x, y, all, 0, periodic_.fluid_count(), periodic_.padding(), reach);
         if (terms_.walls) {
             const CellGrid fluid(x, y, periodic_.fluid_rows(), reach);
-            dummy_list_.build(x, y, fluid, periodic_.fluid_count(), periodic_.particle_count(),
+            std::vector<double> target_x(x.begin(), x.end());
+            std::vector<double> target_y(y.begin(), y.end());
+            if (numerics_.wall_extrapolation == WallExtrapolation::fit) {
+                move_to_wall_points(particles.dummies, target_x, target_y);
+            }
+            dummy_list_.build(target_x, target_y, fluid, periodic_.fluid_count(), periodic_.particle_count(),
                               periodic_.padding(), reach);
         }
         rows_.resize(periodic_.row_count());
@@ -111,18 +124,14 @@ template <class Real, int W> class PairInteractions final : public Interactions 
         if (!terms_.walls) {
             return;
         }
-        DummyParticles& dummies = particles.dummies;
+        if (numerics_.wall_extrapolation == WallExtrapolation::fit) {
+            fill_wall_rows(particles);
+            sweep_walls<WallView>(Composition<VelocityFit, PressureFit>{}, particles);
+            return;
+        }
         fill_force_rows(particles);
-        const ExtrapolationCoefficients<Real> coefficients{static_cast<Real>(particles.fluid.mass),
-                                                           static_cast<Real>(fluid_.body_force.x()),
-                                                           static_cast<Real>(fluid_.body_force.y())};
-        sweep<Real, W, Kernel, ForceView, Extrapolation>(
-            Composition<VelocityExtrapolation, PressureExtrapolation>{}, dummy_list_, rows(), scale_,
-            coefficients, [&](std::size_t first, const Extrapolation<P>& result) {
-                store_lanes(dummies.velocity_x, first, result.velocity_x);
-                store_lanes(dummies.velocity_y, first, result.velocity_y);
-                store_lanes(dummies.pressure, first, result.pressure);
-            });
+        sweep_walls<ForceView>(Composition<VelocityExtrapolation, PressureExtrapolation>{}, particles);
+        DummyParticles& dummies = particles.dummies;
         for (std::size_t d = 0; d < dummies.size(); ++d) { // Eq. 2.16
             const Vector& wall_velocity = dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])];
             dummies.velocity_x[d] = 2 * wall_velocity.x() - dummies.velocity_x[d];
@@ -148,15 +157,23 @@ template <class Real, int W> class PairInteractions final : public Interactions 
 
     [[nodiscard]] std::span<const Row<Real>> rows() const { return rows_; }
 
+    // Lists are looked at twice a step: whoever has left its neighbours behind since then is not simulated
+    // any more.
+    void refuse_flight(const Particles& particles, double displacement) const {
+        if (displacement > 5 * numerics_.particle_spacing) {
+            throw RunError(fmt::format("time {:.6g} s: {}; reduce numerics.acoustic_cfl, or raise "
+                                       "numerics.sound_speed to 10 times the top speed",
+                                       particles.time, periodic_.farthest_moved(particles)));
+        }
+    }
+
     [[nodiscard]] Vector continuity_velocity(const DummyParticles& dummies, std::size_t d) const {
         return numerics_.wall_continuity == WallContinuity::wall_velocity
                    ? dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])]
                    : Vector(dummies.velocity_x[d], dummies.velocity_y[d]);
     }
 
-    static Row<Real> make_row(std::convertible_to<double> auto... values) {
-        return {{static_cast<Real>(values)...}};
-    }
+    static Row<Real> make_row(std::convertible_to<double> auto... values) { return {{Real(values)...}}; }
 
     // Writes the rows of a pass: fluid_row(i), dummy_row(d), their periodic copies, and the padding.
     template <class FluidRow, class DummyRow>
@@ -179,8 +196,8 @@ template <class Real, int W> class PairInteractions final : public Interactions 
             ++copy;
         }
         // Beyond every kernel; the ones keep quotients of volumes finite.
-        const Vector far = domain_.upper + 100 * domain_.size();
-        *copy = make_row(far.x(), far.y(), 0, 0, 1, 1, 1, 0);
+        constexpr double far = 1e9; // m
+        *copy = make_row(far, far, 0, 0, 1, 1, 1, 0);
     }
 
     void fill_force_rows(const Particles& particles) {
@@ -196,6 +213,48 @@ template <class Real, int W> class PairInteractions final : public Interactions 
             [&](std::size_t d) {
                 return make_row(dummies.x[d], dummies.y[d], dummies.velocity_x[d], dummies.velocity_y[d], 0,
                                 0, dummies.volume[d], dummies.volume[d] * dummies.pressure[d]);
+            });
+    }
+
+    // A fit asks for the fluid around the wall point of a dummy, a mean for that around the dummy.
+    void move_to_wall_points(const DummyParticles& dummies, std::vector<double>& x,
+                             std::vector<double>& y) const {
+        for (std::size_t d = 0; d < dummies.size(); ++d) {
+            x[periodic_.fluid_count() + d] += dummies.depth[d] * dummies.normal_x[d];
+            y[periodic_.fluid_count() + d] += dummies.depth[d] * dummies.normal_y[d];
+        }
+    }
+
+    void fill_wall_rows(const Particles& particles) {
+        const FluidParticles& fluid = particles.fluid;
+        const DummyParticles& dummies = particles.dummies;
+        const double h = numerics_.smoothing_length();
+        fill_rows(
+            particles,
+            [&](std::size_t i) {
+                return make_row(fluid.x[i], fluid.y[i], fluid.velocity_x[i], fluid.velocity_y[i],
+                                fluid.pressure[i], 0, 0, 0);
+            },
+            [&](std::size_t d) {
+                const Vector& velocity = dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])];
+                return make_row(dummies.x[d] + dummies.depth[d] * dummies.normal_x[d],
+                                dummies.y[d] + dummies.depth[d] * dummies.normal_y[d],
+                                dummies.normal_x[d] / h, dummies.normal_y[d] / h, velocity.x(), velocity.y(),
+                                dummies.depth[d] / h, 0.5 * dummies.curvature[d] * h);
+            });
+    }
+
+    template <template <class> class View, class Terms> void sweep_walls(Terms terms, Particles& particles) {
+        DummyParticles& dummies = particles.dummies;
+        const ExtrapolationCoefficients<Real> coefficients{static_cast<Real>(particles.fluid.mass),
+                                                           static_cast<Real>(fluid_.body_force.x()),
+                                                           static_cast<Real>(fluid_.body_force.y())};
+        sweep<Real, W, Kernel, View, Extrapolation>(
+            terms, dummy_list_, rows(), scale_, coefficients,
+            [&](std::size_t first, const Extrapolation<P>& result) {
+                store_lanes(dummies.velocity_x, first, result.velocity_x);
+                store_lanes(dummies.velocity_y, first, result.velocity_y);
+                store_lanes(dummies.pressure, first, result.pressure);
             });
     }
 

@@ -1,5 +1,7 @@
 #include "solver/loop/periodic_rows.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -162,6 +164,21 @@ double PeriodicRows::relative_displacement(const Particles& particles) const {
     range(particles.dummies.x, x_.data() + fluid_count_, low_x, high_x);
     range(particles.dummies.y, y_.data() + fluid_count_, low_y, high_y);
     return std::hypot(high_x - low_x, high_y - low_y);
+}
+
+std::string PeriodicRows::farthest_moved(const Particles& particles) const {
+    const FluidParticles& fluid = particles.fluid;
+    std::size_t farthest = 0;
+    double distance = 0;
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        const double moved = std::hypot(fluid.x[i] - x_[i], fluid.y[i] - y_[i]);
+        if (moved > distance) {
+            distance = moved;
+            farthest = i;
+        }
+    }
+    return fmt::format("particle {} at ({:.6g}, {:.6g}) m left its neighbours, by {:.3g} m",
+                       fluid.identity[farthest], fluid.x[farthest], fluid.y[farthest], distance);
 }
 
 } // namespace slurry

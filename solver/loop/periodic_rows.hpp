@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace slurry {
@@ -36,6 +37,9 @@ class PeriodicRows {
 
     // Largest displacement of any two particles against each other since the rebuild, m (an upper bound).
     [[nodiscard]] double relative_displacement(const Particles& particles) const;
+
+    // Names the fluid particle that has moved farthest since the rebuild, for messages.
+    [[nodiscard]] std::string farthest_moved(const Particles& particles) const;
 
   private:
     void add_copies(const Domain& domain, double reach);

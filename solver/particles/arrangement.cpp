@@ -46,6 +46,11 @@ void place_dummies(DummyParticles& dummies, const Scene& scene, const Region& re
             dummies.start_x[d] = dummy.position.x();
             dummies.start_y[d] = dummy.position.y();
             dummies.volume[d] = dummy.volume;
+            const NearestPoint nearest = region.walls()[w].nearest(dummy.position);
+            dummies.normal_x[d] = nearest.normal.x();
+            dummies.normal_y[d] = nearest.normal.y();
+            dummies.depth[d] = nearest.normal.dot(nearest.position - dummy.position);
+            dummies.curvature[d] = nearest.curvature;
             dummies.wall[d] = static_cast<int>(w);
             ++d;
         }
@@ -54,7 +59,8 @@ void place_dummies(DummyParticles& dummies, const Scene& scene, const Region& re
 }
 
 // Lets the background pressure even out the spacing, without inertia, against walls at rest. One iteration
-// moves a particle by h^2 / c^2 times its acceleration: a third of the stability limit of this descent.
+// moves a particle by h^2 / (2 c^2) times its acceleration; the stiffest displacement of a lattice allows
+// 0.69 h^2 / c^2.
 void relax(Particles& particles, const Scene& scene) {
     constexpr int most_iterations = 1000;
     constexpr double still = 1e-4; // spacings per iteration
@@ -64,7 +70,7 @@ void relax(Particles& particles, const Scene& scene) {
     const auto interactions = make_interactions(uniform);
     const double h = scene.numerics.smoothing_length();
     const double spacing = scene.numerics.particle_spacing;
-    const double factor = std::pow(h / scene.numerics.sound_speed, 2);
+    const double factor = 0.5 * std::pow(h / scene.numerics.sound_speed, 2);
     FluidParticles& fluid = particles.fluid;
     double largest = spacing;
     for (int k = 0; k < most_iterations && largest > still * spacing; ++k) {

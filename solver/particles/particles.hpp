@@ -37,6 +37,9 @@ struct DummyParticles {
     std::vector<double> volume;                 // m2, does not change
     std::vector<double> velocity_x, velocity_y; // extrapolated, Eq. 2.16
     std::vector<double> pressure;               // extrapolated, Eq. 2.17
+    std::vector<double> normal_x, normal_y;     // of the wall at the nearest point, unit, into the fluid
+    std::vector<double> depth;                  // m, behind the wall
+    std::vector<double> curvature;              // 1/m, of the wall there, positive towards the fluid
     std::vector<int> wall;                      // index into the region's walls
     std::vector<Vector> wall_velocity;          // per wall, m/s
     std::vector<Vector> wall_drift; // per wall, m/s: 0 where a wall slides along itself between fixed ends
@@ -45,7 +48,8 @@ struct DummyParticles {
     void resize(std::size_t count);
     // Calls visit(vector) for every array with an entry per dummy.
     template <class Visit> void each_array(Visit&& visit) {
-        for (auto* array : {&x, &y, &start_x, &start_y, &volume, &velocity_x, &velocity_y, &pressure}) {
+        for (auto* array : {&x, &y, &start_x, &start_y, &volume, &velocity_x, &velocity_y, &pressure,
+                            &normal_x, &normal_y, &depth, &curvature}) {
             visit(*array);
         }
         visit(wall);

@@ -102,6 +102,17 @@ NodeTable& named_table(NodeTable& document, const Override& change) {
            meant.empty() ? "" : fmt::format("{}.{}.{}", change.path[0], meant, change.path[2]));
 }
 
+const Section& declared_section(const Entry& entry) {
+    if (const Section* section = find_section(entry.key)) {
+        return *section;
+    }
+    std::vector<std::string> names;
+    std::ranges::transform(sections(), std::back_inserter(names),
+                           [](const Section& known) { return std::string(known.name); });
+    refuse(entry.place, fmt::format("the unknown table [{}]", printable(entry.key)),
+           fmt::format("{}", fmt::join(names, ", ")), nearest(entry.key, names));
+}
+
 } // namespace
 
 void apply_override(Node& document, const std::string& text) {
@@ -118,21 +129,14 @@ void apply_override(Node& document, const std::string& text) {
 
 void check_structure(const Node& document) {
     for (const Entry& entry : std::get<NodeTable>(document.value)) {
-        const Section* section = find_section(entry.key);
-        if (section == nullptr) { // refuse does not return
-            std::vector<std::string> names;
-            std::ranges::transform(sections(), std::back_inserter(names),
-                                   [](const Section& known) { return std::string(known.name); });
-            refuse(entry.place, fmt::format("the unknown table [{}]", printable(entry.key)),
-                   fmt::format("{}", fmt::join(names, ", ")), nearest(entry.key, names));
-        }
+        const Section& section = declared_section(entry);
         const auto* array = std::get_if<std::vector<Node>>(&entry.node.value);
         const auto is_table = [](const Node& node) { return std::holds_alternative<NodeTable>(node.value); };
-        const bool fits = section->repeated() ? array != nullptr && std::ranges::all_of(*array, is_table)
-                                              : is_table(entry.node);
+        const bool fits = section.repeated() ? array != nullptr && std::ranges::all_of(*array, is_table)
+                                             : is_table(entry.node);
         if (!fits) {
             refuse(entry.place, fmt::format("{} = {}", entry.key, describe(entry.node)),
-                   fmt::format("{} {}", section->repeated() ? "tables" : "one table", section->heading()));
+                   fmt::format("{} {}", section.repeated() ? "tables" : "one table", section.heading()));
         }
     }
 }

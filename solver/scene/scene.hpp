@@ -20,6 +20,8 @@ enum class DummyLayout : std::uint8_t { curve, lattice };
 enum class WallContinuity : std::uint8_t { wall_velocity, extrapolated };
 // Particle volume in the forces: m / rho, or 1 / sum W (below Eq. 2.8).
 enum class ParticleVolume : std::uint8_t { mass_over_density, number_density };
+// How the fluid is continued to the dummies of a wall: kernel means (2.16, 2.17) or least-squares fits.
+enum class WallExtrapolation : std::uint8_t { mean, fit };
 enum class Arrangement : std::uint8_t { lattice, jittered, relaxed };
 enum class InitialVelocity : std::uint8_t { rest, shear, taylor_green };
 enum class FluidSide : std::uint8_t { above, below, left, right };
@@ -52,6 +54,7 @@ struct Numerics {
     bool gradient_correction = true;
     bool advection_tensor = true;
     DummyLayout wall_dummies = DummyLayout::curve;
+    WallExtrapolation wall_extrapolation = WallExtrapolation::fit;
     WallContinuity wall_continuity = WallContinuity::wall_velocity;
     ParticleVolume particle_volume = ParticleVolume::mass_over_density;
 

@@ -37,7 +37,9 @@ std::vector<TermReason> explain_terms(const Scene& scene) {
         {"advection tensor (2.20)", terms.advection_tensor,
          terms.transport_velocity ? fmt::format("numerics.advection_tensor = {}", numerics.advection_tensor)
                                   : std::string("no transport velocity")},
-        {"wall extrapolation (2.16, 2.17)", terms.walls, fmt::format("{} wall(s)", scene.walls.size())},
+        {numerics.wall_extrapolation == WallExtrapolation::fit ? "wall fit (in place of 2.16, 2.17)"
+                                                               : "wall extrapolation (2.16, 2.17)",
+         terms.walls, fmt::format("{} wall(s)", scene.walls.size())},
     };
 }
 

@@ -63,6 +63,23 @@ template <class Real> struct ForceCoefficients {
     Real background_pressure;
 };
 
+// Wall fits. A dummy's row holds the nearest point of the wall, the frame there in smoothing lengths, and the
+// wall's velocity; a fluid particle's row its velocity and pressure.
+template <class P> struct WallView {
+    Fields<P> field;
+    const P& x() const { return field[0]; }
+    const P& y() const { return field[1]; }
+    const P& normal_x() const { return field[2]; } // unit vector / h, 1/m
+    const P& normal_y() const { return field[3]; }
+    const P& wall_velocity_x() const { return field[4]; }
+    const P& wall_velocity_y() const { return field[5]; }
+    const P& depth() const { return field[6]; }          // / h
+    const P& half_curvature() const { return field[7]; } // times h
+    const P& velocity_x() const { return field[2]; }
+    const P& velocity_y() const { return field[3]; }
+    const P& pressure() const { return field[4]; }
+};
+
 // Extrapolation to dummies: v_f and p_f averaged with the kernel as weight.
 template <class P> struct Extrapolation {
     P velocity_x, velocity_y; // Shepard mean of the fluid's velocity

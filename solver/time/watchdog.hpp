@@ -2,16 +2,9 @@
 // Stops a run that goes wrong before its numbers are taken for an answer.
 #include "solver/geometry/region.hpp"
 #include "solver/particles/particles.hpp"
-
-#include <stdexcept>
+#include "solver/particles/run_error.hpp"
 
 namespace slurry {
-
-// A run that went wrong; what() is one line: when, which particle, where, what, and what to try.
-class RunError : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
 
 // Throws RunError when a fluid particle's state is not finite, its density is off by more than 10 %, or it is
 // more than half a spacing behind a wall.

@@ -11,7 +11,8 @@
 
 namespace slurry::testing {
 
-inline Scene core_scene(const Vector& lower, const Vector& size, std::array<bool, 2> periodic, double spacing) {
+inline Scene core_scene(const Vector& lower, const Vector& size, std::array<bool, 2> periodic,
+                        double spacing) {
     Scene scene;
     scene.domain = {lower, lower + size, periodic};
     scene.fluid = {1000, 2, Vector::Zero()};
@@ -39,7 +40,9 @@ inline void jitter(Scene& scene, double amplitude, std::uint64_t seed = 7) {
     scene.start.seed = seed;
 }
 
-inline Particles arrange(const Scene& scene) { return arrange_particles(scene, Region(scene)); }
+inline Particles arrange(const Scene& scene) {
+    return arrange_particles(scene, Region(scene));
+}
 
 // Random velocities and shifts, densities off by up to 2 % with the pressures that belong to them.
 inline void disorder(Particles& particles, const Scene& scene, unsigned seed = 3) {

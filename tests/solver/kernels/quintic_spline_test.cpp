@@ -13,7 +13,8 @@
 namespace slurry {
 namespace {
 
-// Integral of f(q) q^power / lambda over the support. Gauss-Legendre with 8 points is exact for every polynomial piece.
+// Integral of f(q) q^power / lambda over the support. Gauss-Legendre with 8 points is exact for every
+// polynomial piece.
 double radial_integral(int power) {
     const std::unique_ptr<gsl_integration_glfixed_table, decltype(&gsl_integration_glfixed_table_free)> table(
         gsl_integration_glfixed_table_alloc(8), gsl_integration_glfixed_table_free);
@@ -32,8 +33,8 @@ double radial_integral(int power) {
 TEST(QuinticSpline, IntegratesToOneInOneTwoAndThreeDimensions) {
     const std::array<double, 3> sphere{2, 2 * std::numbers::pi, 4 * std::numbers::pi};
     for (std::size_t dimension = 0; dimension < 3; ++dimension) {
-        const double integral =
-            QuinticSpline::normalisation[dimension] * sphere[dimension] * radial_integral(static_cast<int>(dimension));
+        const double integral = QuinticSpline::normalisation[dimension] * sphere[dimension] *
+                                radial_integral(static_cast<int>(dimension));
         EXPECT_NEAR(integral, 1, 1e-14) << dimension + 1 << "D";
     }
 }
@@ -58,7 +59,8 @@ TEST(QuinticSpline, FollowsTheFourBranchesOfTheEquation) {
 TEST(QuinticSpline, SlopeAgreesWithFiniteDifferences) {
     constexpr double step = 1e-5;
     for (double q = 0.01; q < 3.2; q += 0.0137) {
-        const double difference = (QuinticSpline::shape(q + step) - QuinticSpline::shape(q - step)) / (2 * step);
+        const double difference =
+            (QuinticSpline::shape(q + step) - QuinticSpline::shape(q - step)) / (2 * step);
         EXPECT_NEAR(QuinticSpline::slope(q), difference, 1e-7) << q; // truncation: step^2 f''' / 6 < 1e-8
     }
 }
@@ -93,9 +95,12 @@ TEST(QuinticSpline, PairCarriesTheKernelAndItsGradient) {
         const double y = 1.3 * h * std::sin(angle);
         const Pair<double> pair = make_pair<QuinticSpline>(scale, x, y);
         const double steepest = pair.kernel / h;
-        EXPECT_NEAR(pair.slope * x, (kernel(x + step, y) - kernel(x - step, y)) / (2 * step), 1e-6 * steepest);
-        EXPECT_NEAR(pair.slope * y, (kernel(x, y + step) - kernel(x, y - step)) / (2 * step), 1e-6 * steepest);
-        EXPECT_NEAR(pair.kernel, QuinticSpline::normalisation[1] * QuinticSpline::shape(1.3) / (h * h), 1e-9 * pair.kernel);
+        EXPECT_NEAR(pair.slope * x, (kernel(x + step, y) - kernel(x - step, y)) / (2 * step),
+                    1e-6 * steepest);
+        EXPECT_NEAR(pair.slope * y, (kernel(x, y + step) - kernel(x, y - step)) / (2 * step),
+                    1e-6 * steepest);
+        EXPECT_NEAR(pair.kernel, QuinticSpline::normalisation[1] * QuinticSpline::shape(1.3) / (h * h),
+                    1e-9 * pair.kernel);
     }
     const Pair<double> coincident = make_pair<QuinticSpline>(scale, 0.0, 0.0);
     EXPECT_TRUE(std::isfinite(coincident.slope));

@@ -1,6 +1,6 @@
 #pragma once
-// Eqs. 2.14 to 2.22 as they are written, particle by particle over all particles and all their periodic images: no
-// neighbour lists, no fused sums, no vectors. What the pair loops are held against.
+// Eqs. 2.14 to 2.22 as they are written, particle by particle over all particles and all their periodic
+// images: no neighbour lists, no fused sums, no vectors. What the pair loops are held against.
 #include "solver/particles/particles.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -15,7 +15,8 @@ namespace slurry::testing {
 class AllPairs {
   public:
     AllPairs(const Scene& scene, Particles& particles)
-        : scene_(scene), fluid_(particles.fluid), dummies_(particles.dummies), h_(scene.numerics.smoothing_length()) {
+        : scene_(scene), fluid_(particles.fluid), dummies_(particles.dummies),
+          h_(scene.numerics.smoothing_length()) {
         find_pairs();
     }
 
@@ -32,7 +33,8 @@ class AllPairs {
         for (std::size_t i = 0; i < fluid_.size(); ++i) {
             double sum = kernel(0);
             visit(i, [&](std::size_t j, const Vector& r) {
-                sum += kernel(r.norm()) * (is_fluid(j) ? 1 : volume(j) / std::pow(scene_.numerics.particle_spacing, 2));
+                sum += kernel(r.norm()) *
+                       (is_fluid(j) ? 1 : volume(j) / std::pow(scene_.numerics.particle_spacing, 2));
             });
             fluid_.volume[i] = scene_.numerics.particle_volume == ParticleVolume::number_density
                                    ? 1 / sum
@@ -70,7 +72,8 @@ class AllPairs {
         const Vector density_slope =
             scene_.fluid.density / (numerics.sound_speed * numerics.sound_speed) * scene_.fluid.body_force;
         for (std::size_t i = 0; i < fluid_.size(); ++i) {
-            const Matrix correction = numerics.gradient_correction ? correction_matrix(i) : Matrix::Identity();
+            const Matrix correction =
+                numerics.gradient_correction ? correction_matrix(i) : Matrix::Identity();
             double rate = 0;
             visit(i, [&](std::size_t j, const Vector& r) {
                 const double volume_j = is_fluid(j) ? fluid_.mass / fluid_.density[j] : volume(j);
@@ -80,7 +83,8 @@ class AllPairs {
                 if (is_fluid(j)) {
                     const double difference = fluid_.density[j] - fluid_.density[i] + density_slope.dot(r);
                     const Vector psi = 2 * difference / r.squaredNorm() * -r;
-                    rate += numerics.density_diffusion * h_ * numerics.sound_speed * psi.dot(gradient) * volume_j;
+                    rate +=
+                        numerics.density_diffusion * h_ * numerics.sound_speed * psi.dot(gradient) * volume_j;
                 }
             });
             fluid_.density_rate[i] = rate;
@@ -103,7 +107,8 @@ class AllPairs {
                 const double rho_j = fluid_.mass / volume(j);
                 const double mean_pressure = (pressure(i) * rho_j + pressure(j) * rho_i) / (rho_i + rho_j);
                 force -= squares * mean_pressure * gradient;
-                force += squares * scene_.fluid.dynamic_viscosity * (velocity_of(i) - velocity_of(j)) / r.norm() * slope;
+                force += squares * scene_.fluid.dynamic_viscosity * (velocity_of(i) - velocity_of(j)) /
+                         r.norm() * slope;
                 if (tensor) {
                     force += squares * (advection(i) + advection(j)) / 2 * gradient;
                 }
@@ -131,7 +136,8 @@ class AllPairs {
             for (std::size_t j = 0; j < count; ++j) {
                 for (int column = -columns; column <= columns; ++column) {
                     for (int row = -rows; row <= rows; ++row) {
-                        const Vector r = position(i) - position(j) - Vector(column * length.x(), row * length.y());
+                        const Vector r =
+                            position(i) - position(j) - Vector(column * length.x(), row * length.y());
                         if (r.norm() < 3 * h_ && (i != j || column != 0 || row != 0)) {
                             others_[i].push_back({j, r});
                         }
@@ -169,7 +175,9 @@ class AllPairs {
     }
 
     [[nodiscard]] bool is_fluid(std::size_t j) const { return j < fluid_.size(); }
-    [[nodiscard]] Vector position(std::size_t j) const { return pick(j, fluid_.x, fluid_.y, dummies_.x, dummies_.y); }
+    [[nodiscard]] Vector position(std::size_t j) const {
+        return pick(j, fluid_.x, fluid_.y, dummies_.x, dummies_.y);
+    }
     [[nodiscard]] Vector velocity_of(std::size_t j) const {
         return pick(j, fluid_.velocity_x, fluid_.velocity_y, dummies_.velocity_x, dummies_.velocity_y);
     }
@@ -187,11 +195,13 @@ class AllPairs {
         return is_fluid(j) ? fluid_.pressure[j] : dummies_.pressure[j - fluid_.size()];
     }
     [[nodiscard]] Matrix advection(std::size_t j) const {
-        return is_fluid(j) ? Matrix(fluid_.density[j] * velocity_of(j) * Vector(fluid_.shift_x[j], fluid_.shift_y[j]).transpose())
+        return is_fluid(j) ? Matrix(fluid_.density[j] * velocity_of(j) *
+                                    Vector(fluid_.shift_x[j], fluid_.shift_y[j]).transpose())
                            : Matrix(Matrix::Zero());
     }
-    [[nodiscard]] Vector pick(std::size_t j, const std::vector<double>& fluid_x, const std::vector<double>& fluid_y,
-                              const std::vector<double>& dummy_x, const std::vector<double>& dummy_y) const {
+    [[nodiscard]] Vector pick(std::size_t j, const std::vector<double>& fluid_x,
+                              const std::vector<double>& fluid_y, const std::vector<double>& dummy_x,
+                              const std::vector<double>& dummy_y) const {
         const std::size_t d = j - fluid_.size();
         return is_fluid(j) ? Vector(fluid_x[j], fluid_y[j]) : Vector(dummy_x[d], dummy_y[d]);
     }

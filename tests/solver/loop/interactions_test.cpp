@@ -1,4 +1,5 @@
-// The wide pair loops against plain numbers, against all pairs, and against themselves with other thread counts.
+// The wide pair loops against plain numbers, against all pairs, and against themselves with other thread
+// counts.
 #include "solver/loop/interactions.hpp"
 
 #include "tests/solver/loop/all_pairs.hpp"
@@ -25,7 +26,8 @@ Scene composed(unsigned bits, bool walls) {
     scene.fluid.dynamic_viscosity = bit(3) ? 2 : 0;
     scene.numerics.background_pressure_ratio = bit(4) ? 0.8 : 0;
     scene.numerics.advection_tensor = bit(5);
-    scene.numerics.particle_volume = bit(6) ? ParticleVolume::number_density : ParticleVolume::mass_over_density;
+    scene.numerics.particle_volume =
+        bit(6) ? ParticleVolume::number_density : ParticleVolume::mass_over_density;
     scene.numerics.wall_continuity = bit(7) ? WallContinuity::extrapolated : WallContinuity::wall_velocity;
     return scene;
 }
@@ -76,12 +78,14 @@ TEST(Interactions, NativeWidthAgreesWithPlainNumbersInEveryComposition) {
         for (const bool walls : {false, true}) {
             SCOPED_TRACE("composition " + std::to_string(bits) + (walls ? " with walls" : " without walls"));
             const Scene scene = composed(bits, walls);
-            expect_same_results(evaluated(scene, LoopWidth::native), evaluated(scene, LoopWidth::plain), 1e-12);
+            expect_same_results(evaluated(scene, LoopWidth::native), evaluated(scene, LoopWidth::plain),
+                                1e-12);
         }
     }
 }
 
-// The softening of 1e-12 h^2 under the root of the distance, which the equations do not have, sets the tolerance.
+// The softening of 1e-12 h^2 under the root of the distance, which the equations do not have, sets the
+// tolerance.
 TEST(Interactions, AgreeWithTheEquationsOverAllPairsInEveryComposition) {
     for (unsigned bits = 0; bits < compositions; ++bits) {
         SCOPED_TRACE("composition " + std::to_string(bits));

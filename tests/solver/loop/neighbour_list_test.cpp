@@ -16,7 +16,8 @@ namespace slurry::testing {
 namespace {
 
 using Points = std::vector<Vector>;
-using Lists = std::vector<std::vector<std::uint32_t>>; // per target: neighbours' identities, sorted, repeats kept
+using Lists =
+    std::vector<std::vector<std::uint32_t>>; // per target: neighbours' identities, sorted, repeats kept
 
 constexpr double reach = 0.13;
 const Domain unit_domain{{-0.4, 0.3}, {0.6, 1.3}, {false, false}};
@@ -102,7 +103,8 @@ Lists brute_force(const Particles& particles, const Domain& domain, bool fluid_o
     return lists;
 }
 
-Lists listed(const PeriodicRows& rows, const NeighbourList& list, int width, std::size_t first, std::size_t last) {
+Lists listed(const PeriodicRows& rows, const NeighbourList& list, int width, std::size_t first,
+             std::size_t last) {
     Lists lists(rows.particle_count());
     const auto lanes = static_cast<std::size_t>(width);
     for (std::size_t block = 0; block < list.block_count(); ++block) {
@@ -164,13 +166,17 @@ void expect_lists_match_everywhere(const Points& points) {
     }
 }
 
-TEST(NeighbourList, OfALattice) { expect_lists_match_everywhere(ordered_points(19)); }
+TEST(NeighbourList, OfALattice) {
+    expect_lists_match_everywhere(ordered_points(19));
+}
 
 TEST(NeighbourList, OfRandomPoints) {
     expect_lists_match_everywhere(random_points(400, [](double u, double v) { return Vector(u, v); }));
 }
 
-TEST(NeighbourList, OfPointsInOneCornerOutgrowsItsFirstCapacity) { expect_lists_match_everywhere(clustered_points()); }
+TEST(NeighbourList, OfPointsInOneCornerOutgrowsItsFirstCapacity) {
+    expect_lists_match_everywhere(clustered_points());
+}
 
 TEST(NeighbourList, CoincidentPointsAreNeighboursOfEachOtherButNotOfThemselves) {
     expect_lists_match_everywhere(duplicated_points());
@@ -182,7 +188,8 @@ TEST(NeighbourList, OfPointsOutsideTheDomainThatAreWrappedFirst) {
 }
 
 TEST(NeighbourList, OfFewerPointsThanLanesAndOfOne) {
-    expect_lists_match_everywhere(random_points(4, [](double u, double v) { return Vector(0.1 * u, 0.1 * v); }));
+    expect_lists_match_everywhere(
+        random_points(4, [](double u, double v) { return Vector(0.1 * u, 0.1 * v); }));
     expect_lists_match_everywhere({unit_domain.lower});
 }
 

@@ -42,15 +42,27 @@ template <class Real, int W> void expect_gather_matches_indexing() {
     }
 }
 
-TEST(Gather, PlainNumbers) { expect_gather_matches_indexing<double, 1>(); }
-TEST(Gather, NativeWidthOfDouble) { expect_gather_matches_indexing<double, native_lanes<double>>(); }
-TEST(Gather, NativeWidthOfFloat) { expect_gather_matches_indexing<float, native_lanes<float>>(); }
+TEST(Gather, PlainNumbers) {
+    expect_gather_matches_indexing<double, 1>();
+}
+TEST(Gather, NativeWidthOfDouble) {
+    expect_gather_matches_indexing<double, native_lanes<double>>();
+}
+TEST(Gather, NativeWidthOfFloat) {
+    expect_gather_matches_indexing<float, native_lanes<float>>();
+}
 #ifdef __AVX__ // else vectors of this width are split, and GCC warns that passing them changes the ABI
-TEST(Gather, FourDoublesAreTransposed) { expect_gather_matches_indexing<double, 4>(); }
-TEST(Gather, EightFloatsAreTransposed) { expect_gather_matches_indexing<float, 8>(); }
+TEST(Gather, FourDoublesAreTransposed) {
+    expect_gather_matches_indexing<double, 4>();
+}
+TEST(Gather, EightFloatsAreTransposed) {
+    expect_gather_matches_indexing<float, 8>();
+}
 #endif
 #ifdef __AVX512F__
-TEST(Gather, EightDoublesAreTransposed) { expect_gather_matches_indexing<double, 8>(); }
+TEST(Gather, EightDoublesAreTransposed) {
+    expect_gather_matches_indexing<double, 8>();
+}
 #endif
 
 TEST(InverseSquareRoot, IsAccurateOverManyMagnitudes) {

@@ -132,8 +132,9 @@ TEST(PeriodicRows, RelativeDisplacementBoundsEveryPair) {
     double apart = 0;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         for (std::size_t j = 0; j < fluid.size(); ++j) {
-            apart = std::max(apart, std::hypot(fluid.x[i] - before.fluid.x[i] - fluid.x[j] + before.fluid.x[j],
-                                               fluid.y[i] - before.fluid.y[i] - fluid.y[j] + before.fluid.y[j]));
+            apart =
+                std::max(apart, std::hypot(fluid.x[i] - before.fluid.x[i] - fluid.x[j] + before.fluid.x[j],
+                                           fluid.y[i] - before.fluid.y[i] - fluid.y[j] + before.fluid.y[j]));
         }
     }
     EXPECT_GE(rows.relative_displacement(particles), apart);

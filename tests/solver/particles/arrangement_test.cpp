@@ -39,7 +39,8 @@ TEST(Arrangement, JitterMovesEveryParticleWithinItsBound) {
     double farthest = 0;
     for (std::size_t i = 0; i < lattice.size(); ++i) {
         EXPECT_NE(moved.x[i], lattice.x[i]);
-        farthest = std::max({farthest, std::abs(moved.x[i] - lattice.x[i]), std::abs(moved.y[i] - lattice.y[i])});
+        farthest =
+            std::max({farthest, std::abs(moved.x[i] - lattice.x[i]), std::abs(moved.y[i] - lattice.y[i])});
     }
     EXPECT_LE(farthest, bound * (1 + 1e-12));
     EXPECT_GT(farthest, 0.95 * bound);

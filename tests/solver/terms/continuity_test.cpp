@@ -77,7 +77,8 @@ TEST(CorrectedContinuity, IsNeededForThat) {
 
 TEST(Continuity, OfAnExpandingLatticeIsCloseWithoutTheCorrection) {
     Blob blob = linear_flow(gradient_of(1, 0, 0, 1), false, 0);
-    EXPECT_LT(divergence_error(blob, 2), 0.01); // what the sum over a lattice with h = dx misses of the integral
+    EXPECT_LT(divergence_error(blob, 2),
+              0.01); // what the sum over a lattice with h = dx misses of the integral
 }
 
 TEST(Continuity, OfACommonVelocityVanishes) {

@@ -54,7 +54,8 @@ TEST(Forces, ViscosityConservesMomentumAndTakesEnergy) {
     expect_no_resultant(fluid.acceleration_x, fluid.acceleration_y);
     double power = 0;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
-        power += fluid.velocity_x[i] * fluid.acceleration_x[i] + fluid.velocity_y[i] * fluid.acceleration_y[i];
+        power +=
+            fluid.velocity_x[i] * fluid.acceleration_x[i] + fluid.velocity_y[i] * fluid.acceleration_y[i];
     }
     EXPECT_LT(power, 0);
 }
@@ -90,7 +91,8 @@ template <class Check> void for_interior(const Scene& scene, const Particles& pa
     std::size_t interior = 0;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         const Vector position(fluid.x[i], fluid.y[i]);
-        if ((position - scene.domain.lower).minCoeff() > reach && (scene.domain.upper - position).minCoeff() > reach) {
+        if ((position - scene.domain.lower).minCoeff() > reach &&
+            (scene.domain.upper - position).minCoeff() > reach) {
             check(i);
             ++interior;
         }

@@ -18,7 +18,8 @@ Particles with_volumes(Scene scene, ParticleVolume kind) {
 TEST(ParticleVolume, OfALatticeIsTheCellUpToTheWalls) {
     for (const Scene& scene : {doubly_periodic(12), flat_channel(12)}) {
         for (const double volume : with_volumes(scene, ParticleVolume::number_density).fluid.volume) {
-            EXPECT_NEAR(volume * 144, 1, 0.002); // sum W over a lattice with h = dx is within 0.2 % of its integral
+            EXPECT_NEAR(volume * 144, 1,
+                        0.002); // sum W over a lattice with h = dx is within 0.2 % of its integral
         }
         for (const double volume : with_volumes(scene, ParticleVolume::mass_over_density).fluid.volume) {
             EXPECT_NEAR(volume * 144, 1, 1e-12);

@@ -28,7 +28,8 @@ TEST(TermSelection, SceneWithoutWallsViscosityOrBackgroundPressureRunsNoneOfThei
     EXPECT_FALSE(terms.viscosity);
     EXPECT_FALSE(terms.transport_velocity);
     EXPECT_FALSE(terms.advection_tensor) << "there is nothing to advect without a transport velocity";
-    for (const char* term : {"wall extrapolation", "viscous force", "transport velocity", "advection tensor"}) {
+    for (const char* term :
+         {"wall extrapolation", "viscous force", "transport velocity", "advection tensor"}) {
         EXPECT_FALSE(runs(scene, term)) << term;
     }
     EXPECT_TRUE(runs(scene, "continuity"));

@@ -16,7 +16,8 @@ void extrapolate(const Scene& scene, Particles& particles) {
 // Dummies of the two layers nearest to their wall: the fluid is in their reach for certain.
 bool is_near_fluid(const Scene& scene, const Particles& particles, std::size_t d) {
     const double y = particles.dummies.y[d];
-    const double depth = particles.dummies.wall[d] == 0 ? scene.domain.lower.y() - y : y - scene.domain.upper.y();
+    const double depth =
+        particles.dummies.wall[d] == 0 ? scene.domain.lower.y() - y : y - scene.domain.upper.y();
     return depth < 2 * scene.numerics.particle_spacing;
 }
 
@@ -64,7 +65,8 @@ TEST(WallExtrapolation, ContinuesAHydrostaticPressureIntoTheWall) {
     extrapolate(scene, particles);
     const DummyParticles& dummies = particles.dummies;
     for_near_dummies(scene, particles, [&](std::size_t d) {
-        const double margin = 3.4 * scene.numerics.particle_spacing; // the pressure itself is not periodic in x
+        const double margin =
+            3.4 * scene.numerics.particle_spacing; // the pressure itself is not periodic in x
         const double x = dummies.x[d];
         if (x - scene.domain.lower.x() > margin && scene.domain.upper.x() - x > margin) {
             EXPECT_NEAR(dummies.pressure[d], pressure_at(x, dummies.y[d]), 1e-8);

@@ -33,7 +33,8 @@ std::vector<double> read_dataset(const std::filesystem::path& path, const std::s
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     const hid_t dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
     const hid_t space = H5Dget_space(dataset);
-    std::vector<double> values(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
+    std::vector<double> values(
+        static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))));
     EXPECT_GE(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << name;
     H5Sclose(space);
     H5Dclose(dataset);
@@ -59,7 +60,8 @@ Scene tiny_scene() {
     scene.output.series_samples = 5;
     scene.output.probe_samples = 2;
     scene.output.snapshot_times = {0.05};
-    scene.probes = {{"lid", WallProbe{"lid", 7}}, {"middle", PointProbe{{0.2, 0.7}}}, {"grid", GridProbe{{3, 4}}}};
+    scene.probes = {
+        {"lid", WallProbe{"lid", 7}}, {"middle", PointProbe{{0.2, 0.7}}}, {"grid", GridProbe{{3, 4}}}};
     return scene;
 }
 
@@ -75,10 +77,18 @@ class Simulation : public ::testing::Test {
     int threads_before_ = omp_get_max_threads();
 };
 
-const std::vector<std::string> datasets{
-    "/series/time",          "/series/kinetic_energy", "/series/momentum_x",        "/probes/lid/pressure",
-    "/probes/lid/shear",     "/probes/middle/pressure", "/probes/grid/velocity_x",  "/snapshots/0001/position_x",
-    "/snapshots/0001/position_y", "/snapshots/0001/velocity_x", "/snapshots/0001/density", "/snapshots/0001/pressure"};
+const std::vector<std::string> datasets{"/series/time",
+                                        "/series/kinetic_energy",
+                                        "/series/momentum_x",
+                                        "/probes/lid/pressure",
+                                        "/probes/lid/shear",
+                                        "/probes/middle/pressure",
+                                        "/probes/grid/velocity_x",
+                                        "/snapshots/0001/position_x",
+                                        "/snapshots/0001/position_y",
+                                        "/snapshots/0001/velocity_x",
+                                        "/snapshots/0001/density",
+                                        "/snapshots/0001/pressure"};
 
 TEST_F(Simulation, GivesTheSameBitsForOneAndTwoThreads) {
     const Scene scene = tiny_scene();
@@ -124,7 +134,8 @@ TEST_F(Simulation, RunThatGoesWrongLeavesNoResult) {
 
 TEST(DescribeScene, CountsParticlesAndSaysWhichTermsRun) {
     const std::string text = describe_scene(tiny_scene());
-    for (const char* part : {"fluid particles   144", "dummy particles   72", "on   viscous force", "off  hydrostatic"}) {
+    for (const char* part :
+         {"fluid particles   144", "dummy particles   72", "on   viscous force", "off  hydrostatic"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " is not in:\n" << text;
     }
 }

@@ -24,7 +24,9 @@ TEST(TimeStep, ViscousLimit) {
     EXPECT_DOUBLE_EQ(largest_time_step(scene_of(5e3, 1)), 0.25 * 0.12 * 0.12 / 5);
 }
 
-TEST(TimeStep, ForceLimit) { EXPECT_DOUBLE_EQ(largest_time_step(scene_of(1, 1e5)), 0.25 * std::sqrt(0.12 / 1e5)); }
+TEST(TimeStep, ForceLimit) {
+    EXPECT_DOUBLE_EQ(largest_time_step(scene_of(1, 1e5)), 0.25 * std::sqrt(0.12 / 1e5));
+}
 
 TEST(TimeStep, FactorsOfTheSceneReplaceTheQuarter) {
     for (const auto& [viscosity, force] : {std::pair{0.0, 0.0}, {5e3, 0.0}, {0.0, 1e5}}) {

@@ -17,7 +17,8 @@ struct Flow {
     std::unique_ptr<Interactions> interactions;
     PhaseClock clock;
 
-    explicit Flow(const Scene& of, Particles start) : scene(of), particles(std::move(start)), interactions(make_interactions(of)) {
+    explicit Flow(const Scene& of, Particles start)
+        : scene(of), particles(std::move(start)), interactions(make_interactions(of)) {
         prepare_first_step(particles, *interactions, scene.fluid, scene.numerics.sound_speed, clock);
     }
     explicit Flow(const Scene& of) : Flow(of, arrange(of)) {}
@@ -72,7 +73,8 @@ TEST(VelocityVerlet, DisorderedBoxKeepsItsMomentum) {
     std::fill(start.fluid.density.begin(), start.fluid.density.end(), 1000.0);
     const double momentum_x = sum_of(start.fluid.velocity_x);
     const double momentum_y = sum_of(start.fluid.velocity_y);
-    const double magnitude = sum_of_magnitudes(start.fluid.velocity_x) + sum_of_magnitudes(start.fluid.velocity_y);
+    const double magnitude =
+        sum_of_magnitudes(start.fluid.velocity_x) + sum_of_magnitudes(start.fluid.velocity_y);
     Flow flow(scene, start);
     flow.run(100, largest_time_step(scene));
     EXPECT_NEAR(sum_of(flow.particles.fluid.velocity_x), momentum_x, 1e-12 * magnitude);
@@ -105,7 +107,8 @@ TEST(VelocityVerlet, TaylorGreenVortexLosesItsEnergyAtTheViscousRate) {
 // Velocities of the vortex in the order of the start, after the same time in `steps` steps.
 std::vector<double> velocity_after(int steps) {
     Scene scene = doubly_periodic(12);
-    scene.numerics.background_pressure_ratio = 0; // its shift is proportional to the step: first order by design
+    scene.numerics.background_pressure_ratio =
+        0; // its shift is proportional to the step: first order by design
     scene.start.velocity = InitialVelocity::taylor_green;
     scene.start.speed = 1;
     Flow flow(scene);
