@@ -154,9 +154,24 @@ void check_curvature(const Wall& wall, const Numerics& numerics) {
     }
 }
 
+// A particle meets one image of another at most: the kernel's reach, from a wall's deepest dummy, fits in.
+void check_period(const Domain& domain, const Numerics& numerics) {
+    constexpr double least_smoothing_lengths = 2 * kernel_support + 1;
+    const double least = least_smoothing_lengths * numerics.smoothing_length();
+    for (const int axis : {0, 1}) {
+        const double length = domain.size()[axis];
+        if (domain.periodic[static_cast<std::size_t>(axis)] && length < least * (1 - 1e-9))
+            throw GeometryError(
+                fmt::format("the domain is periodic along {} and {:.4g} m long there: it has to be at "
+                            "least {} smoothing lengths, {:.4g} m; reduce the spacing or widen it",
+                            axis == 0 ? 'x' : 'y', length, least_smoothing_lengths, least));
+    }
+}
+
 } // namespace
 
 void check_region(const Region& region, const Numerics& numerics) {
+    check_period(region.domain(), numerics);
     const double spacing = numerics.particle_spacing;
     const std::vector<Wall>& walls = region.walls();
     for (const Wall& one : walls)

@@ -57,7 +57,12 @@ template <class Real, int W> class PairInteractions final : public Interactions 
             refuse_flight(particles, displacement);
         }
         const double reach = Kernel::support * numerics_.smoothing_length() + skin;
-        periodic_.rebuild(particles, domain_, reach);
+        // The wall point of a dummy beside a periodic side may lie beyond it, by as much as the dummy is
+        // deep.
+        const auto& depths = particles.dummies.depth;
+        const bool fits = terms_.walls && numerics_.wall_extrapolation == WallExtrapolation::fit;
+        const double deepest = fits && !depths.empty() ? *std::max_element(depths.begin(), depths.end()) : 0;
+        periodic_.rebuild(particles, domain_, reach, deepest);
         const auto x = periodic_.x();
         const auto y = periodic_.y();
         const CellGrid all(x, y, periodic_.all_rows(), reach);

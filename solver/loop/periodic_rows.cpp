@@ -79,7 +79,7 @@ void sort(Particles& particles, double lower_y, double strip_height) {
 
 } // namespace
 
-void PeriodicRows::rebuild(Particles& particles, const Domain& domain, double reach) {
+void PeriodicRows::rebuild(Particles& particles, const Domain& domain, double reach, double margin) {
     wrap(particles, domain);
     sort(particles, domain.lower.y(), reach);
     fluid_count_ = particles.fluid.size();
@@ -88,7 +88,7 @@ void PeriodicRows::rebuild(Particles& particles, const Domain& domain, double re
     y_ = particles.fluid.y;
     x_.insert(x_.end(), particles.dummies.x.begin(), particles.dummies.x.end());
     y_.insert(y_.end(), particles.dummies.y.begin(), particles.dummies.y.end());
-    add_copies(domain, reach);
+    add_copies(domain, reach + margin);
 }
 
 void PeriodicRows::add_copies(const Domain& domain, double reach) {

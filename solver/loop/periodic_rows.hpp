@@ -19,8 +19,9 @@ class PeriodicRows {
     };
 
     // Wraps the particles into the domain, sorts them into strips (by y in steps of `reach`, then by x) so
-    // that neighbours are near in memory, and finds the copies within `reach` of a periodic side.
-    void rebuild(Particles& particles, const Domain& domain, double reach);
+    // that neighbours are near in memory, and finds the copies within `reach` + `margin` of a periodic side.
+    // The margin is for sums about points outside the domain, m.
+    void rebuild(Particles& particles, const Domain& domain, double reach, double margin = 0);
 
     [[nodiscard]] std::size_t fluid_count() const { return fluid_count_; }
     [[nodiscard]] std::size_t particle_count() const { return particle_count_; }

@@ -3,9 +3,8 @@
 // of the kernel means of Eqs. 2.16 and 2.17.
 //
 // A kernel mean of the fluid, reflected, has the slope of the fluid's velocity at the wall but the wrong sign
-// of its curvature, so that the viscous force on the first row of particles is wrong by half its size
-// wherever the velocity is not linear. The fits continue the polynomials of the fluid through the wall
-// instead:
+// of its curvature, so that the viscous force on the first row of particles is wrong wherever the velocity is
+// not linear. The fits continue the polynomials of the fluid through the wall instead:
 //   velocity - V_wall = n (b_0 + b_1 s + b_2 n)     no slip at n = 0, exactly
 //   pressure          = c_0 + c_1 s + c_2 n
 // with n the distance from the (parabolic) wall and s the offset along it, in smoothing lengths, and weights

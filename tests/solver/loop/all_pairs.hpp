@@ -1,10 +1,12 @@
 #pragma once
-// Eqs. 2.14 to 2.22 as they are written, particle by particle over all particles and all their periodic
-// images: no neighbour lists, no fused sums, no vectors. What the pair loops are held against.
+// Eqs. 2.14 to 2.22 as they are written, and the wall fits as least squares, particle by particle over all
+// particles and all their periodic images: no neighbour lists, no fused sums, no vectors. What the pair loops
+// are held against.
 #include "solver/particles/particles.hpp"
 #include "solver/scene/scene.hpp"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <cmath>
 #include <numbers>
@@ -23,7 +25,11 @@ class AllPairs {
     // Every pass of a time step, into the particles.
     void evaluate() {
         compute_volumes();
-        extrapolate_to_walls();
+        if (scene_.numerics.wall_extrapolation == WallExtrapolation::fit) {
+            fit_to_walls();
+        } else {
+            extrapolate_to_walls();
+        }
         compute_density_rate();
         compute_forces();
     }
@@ -63,6 +69,34 @@ class AllPairs {
             dummies_.velocity_x[d] = reflected.x();
             dummies_.velocity_y[d] = reflected.y();
             dummies_.pressure[d] = (pressure + scene_.fluid.body_force.dot(lever)) * inverse;
+        }
+    }
+
+    // The fits of solver/terms/wall_fit.hpp, lengths in smoothing lengths. A basis of which the particles in
+    // reach cannot tell the functions apart is cut to its first.
+    void fit_to_walls() {
+        for (std::size_t d = 0; d < dummies_.size(); ++d) {
+            const std::vector<Seen> fluid = fluid_seen_from(d);
+            const auto count = static_cast<Eigen::Index>(fluid.size());
+            Eigen::MatrixXd no_slip(count, 3);
+            Eigen::MatrixXd linear(count, 3);
+            Eigen::MatrixXd velocity(count, 2);
+            Eigen::MatrixXd pressure(count, 1);
+            for (Eigen::Index k = 0; k < count; ++k) {
+                const auto& [f, s, n, weight] = fluid[static_cast<std::size_t>(k)];
+                const double root = std::sqrt(weight);
+                no_slip.row(k) = root * Eigen::RowVector3d(n, n * s, n * n);
+                linear.row(k) = root * Eigen::RowVector3d(1, s, n);
+                velocity.row(k) = root * (velocity_of(f) - wall_velocity(d)).transpose();
+                pressure(k, 0) = root * fluid_.pressure[f];
+            }
+            const double n = -dummies_.depth[d] / h_;
+            const Eigen::MatrixXd b = least_squares(no_slip, velocity);
+            const Vector continued = wall_velocity(d) + n * (b.row(0) + n * b.row(2)).transpose();
+            const Eigen::MatrixXd c = least_squares(linear, pressure);
+            dummies_.velocity_x[d] = continued.x();
+            dummies_.velocity_y[d] = continued.y();
+            dummies_.pressure[d] = c(0, 0) + n * c(2, 0);
         }
     }
 
@@ -121,28 +155,73 @@ class AllPairs {
         }
     }
 
+    // A fluid particle from the wall point of a dummy: offsets along the wall and from it, and the weight.
+    struct Seen {
+        std::size_t f;
+        double s, n, weight;
+    };
+
+    [[nodiscard]] std::vector<Seen> fluid_seen_from(std::size_t d) const {
+        const Vector normal(dummies_.normal_x[d], dummies_.normal_y[d]);
+        const Vector tangent(normal.y(), -normal.x());
+        const Vector wall_point = position(fluid_.size() + d) + dummies_.depth[d] * normal;
+        std::vector<Seen> seen;
+        for (std::size_t f = 0; f < fluid_.size(); ++f) {
+            visit_images([&](const Vector& shift) {
+                const Vector offset = (position(f) + shift - wall_point) / h_;
+                if (offset.norm() < 3) {
+                    const double s = offset.dot(tangent);
+                    const double wall_height = dummies_.curvature[d] * h_ * s * s / 2;
+                    seen.push_back({f, s, offset.dot(normal) - wall_height,
+                                    std::pow(1 - std::pow(offset.norm() / 3, 2), 2)});
+                }
+            });
+        }
+        return seen;
+    }
+
+    [[nodiscard]] static Eigen::MatrixXd least_squares(const Eigen::MatrixXd& basis,
+                                                       const Eigen::MatrixXd& values) {
+        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, values.cols());
+        if (basis.rows() == 0) {
+            return result;
+        }
+        const Eigen::MatrixXd normalised = basis.colwise().normalized();
+        if ((normalised.transpose() * normalised).determinant() > 1e-3) {
+            return basis.colPivHouseholderQr().solve(values);
+        }
+        result.row(0) = basis.leftCols(1).colPivHouseholderQr().solve(values);
+        return result;
+    }
+
     struct Other {
         std::size_t j;
         Vector r; // r_ij
     };
 
     void find_pairs() {
-        const Vector length = scene_.domain.size();
-        const int columns = scene_.domain.periodic[0] ? 1 : 0;
-        const int rows = scene_.domain.periodic[1] ? 1 : 0;
         const std::size_t count = fluid_.size() + dummies_.size();
         others_.resize(count);
         for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t j = 0; j < count; ++j) {
-                for (int column = -columns; column <= columns; ++column) {
-                    for (int row = -rows; row <= rows; ++row) {
-                        const Vector r =
-                            position(i) - position(j) - Vector(column * length.x(), row * length.y());
-                        if (r.norm() < 3 * h_ && (i != j || column != 0 || row != 0)) {
-                            others_[i].push_back({j, r});
-                        }
+                visit_images([&](const Vector& shift) {
+                    const Vector r = position(i) - position(j) - shift;
+                    if (r.norm() < 3 * h_ && (i != j || !shift.isZero())) {
+                        others_[i].push_back({j, r});
                     }
-                }
+                });
+            }
+        }
+    }
+
+    // Calls visit(shift) for the domain itself and its periodic neighbours.
+    template <class Visit> void visit_images(Visit&& visit) const {
+        const Vector length = scene_.domain.size();
+        const int columns = scene_.domain.periodic[0] ? 1 : 0;
+        const int rows = scene_.domain.periodic[1] ? 1 : 0;
+        for (int column = -columns; column <= columns; ++column) {
+            for (int row = -rows; row <= rows; ++row) {
+                visit(Vector(column * length.x(), row * length.y()));
             }
         }
     }

@@ -8,12 +8,14 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <array>
 #include <string>
 
 namespace slurry::testing {
 namespace {
 
-constexpr unsigned compositions = 256;
+constexpr unsigned compositions = 512;
+constexpr std::array both_extrapolations{WallExtrapolation::mean, WallExtrapolation::fit};
 
 // One bit a choice; 11 x 11 particles, so that the last block of any width is not full.
 Scene composed(unsigned bits, bool walls) {
@@ -29,6 +31,7 @@ Scene composed(unsigned bits, bool walls) {
     scene.numerics.particle_volume =
         bit(6) ? ParticleVolume::number_density : ParticleVolume::mass_over_density;
     scene.numerics.wall_continuity = bit(7) ? WallContinuity::extrapolated : WallContinuity::wall_velocity;
+    scene.numerics.wall_extrapolation = bit(8) ? WallExtrapolation::fit : WallExtrapolation::mean;
     return scene;
 }
 
@@ -86,26 +89,42 @@ TEST(Interactions, NativeWidthAgreesWithPlainNumbersInEveryComposition) {
 
 // The softening of 1e-12 h^2 under the root of the distance, which the equations do not have, sets the
 // tolerance.
+void expect_all_pairs(const Scene& scene) {
+    const Particles particles = evaluated(scene, LoopWidth::native);
+    Particles expected = disordered(scene);
+    make_interactions(scene)->refresh_neighbours(expected); // the same order
+    AllPairs(scene, expected).evaluate();
+    expect_same_results(particles, expected, 1e-9);
+}
+
 TEST(Interactions, AgreeWithTheEquationsOverAllPairsInEveryComposition) {
     for (unsigned bits = 0; bits < compositions; ++bits) {
         SCOPED_TRACE("composition " + std::to_string(bits));
-        const Scene scene = composed(bits, bits % 5 != 0);
-        const Particles particles = evaluated(scene, LoopWidth::native);
-        Particles expected = disordered(scene);
-        make_interactions(scene)->refresh_neighbours(expected); // the same order
-        AllPairs(scene, expected).evaluate();
-        expect_same_results(particles, expected, 1e-9);
+        expect_all_pairs(composed(bits, bits % 5 != 0));
     }
 }
 
 TEST(Interactions, AgreeWithTheEquationsAtALargerSmoothingLength) {
-    Scene scene = composed(compositions - 1, true);
-    scene.numerics.smoothing_ratio = 1.3;
-    const Particles particles = evaluated(scene, LoopWidth::native);
-    Particles expected = disordered(scene);
-    make_interactions(scene)->refresh_neighbours(expected);
-    AllPairs(scene, expected).evaluate();
-    expect_same_results(particles, expected, 1e-9);
+    for (const WallExtrapolation extrapolation : both_extrapolations) {
+        Scene scene = composed(compositions - 1, true);
+        scene.numerics.wall_extrapolation = extrapolation;
+        scene.numerics.smoothing_ratio = 1.3;
+        expect_all_pairs(scene);
+    }
+}
+
+// Where the wall is steep at a periodic side, the nearest points of deep dummies lie beyond that side.
+TEST(Interactions, AgreeWithTheEquationsBesideASteepWallThatCrossesAPeriodicSide) {
+    for (const double crest : {-0.3, -0.05, 0.45}) {
+        SCOPED_TRACE("crest at " + std::to_string(crest));
+        Scene scene = composed(compositions - 1, true);
+        scene.walls[0].shape = CosineShape{0.35, 0.1, 1, crest};
+        scene.walls[0].velocity = {-0.5, 0};
+        for (const WallExtrapolation extrapolation : both_extrapolations) {
+            scene.numerics.wall_extrapolation = extrapolation;
+            expect_all_pairs(scene);
+        }
+    }
 }
 
 TEST(Interactions, DoNotDependOnTheNumberOfThreads) {
@@ -121,19 +140,22 @@ TEST(Interactions, DoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Interactions, StayRightBetweenTwoRebuilds) {
-    const Scene scene = composed(compositions - 1, true);
-    Particles particles = disordered(scene);
-    const auto kept = make_interactions(scene);
-    kept->refresh_neighbours(particles);
-    for (std::size_t i = 0; i < particles.fluid.size(); ++i) { // less than the skin, against one another
-        particles.fluid.x[i] += 0.1 * scene.numerics.particle_spacing * particles.fluid.velocity_x[i];
-        particles.fluid.y[i] += 0.1 * scene.numerics.particle_spacing * particles.fluid.velocity_y[i];
+    for (const WallExtrapolation extrapolation : both_extrapolations) {
+        Scene scene = composed(compositions - 1, true);
+        scene.numerics.wall_extrapolation = extrapolation;
+        Particles particles = disordered(scene);
+        const auto kept = make_interactions(scene);
+        kept->refresh_neighbours(particles);
+        for (std::size_t i = 0; i < particles.fluid.size(); ++i) { // less than the skin, against one another
+            particles.fluid.x[i] += 0.1 * scene.numerics.particle_spacing * particles.fluid.velocity_x[i];
+            particles.fluid.y[i] += 0.1 * scene.numerics.particle_spacing * particles.fluid.velocity_y[i];
+        }
+        Particles expected = particles;
+        evaluate(*kept, particles);
+        EXPECT_EQ(kept->rebuilds(), 1);
+        AllPairs(scene, expected).evaluate();
+        expect_same_results(particles, expected, 1e-9);
     }
-    Particles expected = particles;
-    evaluate(*kept, particles);
-    EXPECT_EQ(kept->rebuilds(), 1);
-    AllPairs(scene, expected).evaluate();
-    expect_same_results(particles, expected, 1e-9);
 }
 
 TEST(Interactions, RebuildForRelativeMotionOnly) {

@@ -28,8 +28,7 @@ TEST(TermSelection, SceneWithoutWallsViscosityOrBackgroundPressureRunsNoneOfThei
     EXPECT_FALSE(terms.viscosity);
     EXPECT_FALSE(terms.transport_velocity);
     EXPECT_FALSE(terms.advection_tensor) << "there is nothing to advect without a transport velocity";
-    for (const char* term :
-         {"wall extrapolation", "viscous force", "transport velocity", "advection tensor"}) {
+    for (const char* term : {"wall fit", "viscous force", "transport velocity", "advection tensor"}) {
         EXPECT_FALSE(runs(scene, term)) << term;
     }
     EXPECT_TRUE(runs(scene, "continuity"));
@@ -43,11 +42,21 @@ TEST(TermSelection, ChannelRunsWhatItNeeds) {
     EXPECT_TRUE(terms.walls && terms.viscosity && terms.transport_velocity && terms.advection_tensor &&
                 terms.gradient_correction && terms.density_diffusion);
     EXPECT_FALSE(terms.hydrostatic_diffusion);
-    for (const char* term : {"wall extrapolation", "viscous force", "transport velocity", "advection tensor",
+    for (const char* term : {"wall fit", "viscous force", "transport velocity", "advection tensor",
                              "gradient correction", "density diffusion"}) {
         EXPECT_TRUE(runs(scene, term)) << term;
     }
     EXPECT_FALSE(runs(scene, "hydrostatic"));
+}
+
+TEST(TermSelection, WallsAreContinuedByFitsOrByTheMeansOfThePaper) {
+    Scene scene = flat_channel(8);
+    scene.numerics.wall_extrapolation = WallExtrapolation::mean;
+    EXPECT_TRUE(runs(scene, "wall extrapolation (2.16, 2.17)"));
+    for (const TermReason& reason : explain_terms(scene)) {
+        EXPECT_EQ(reason.term.find("wall fit"), std::string::npos);
+    }
+    EXPECT_FALSE(runs(doubly_periodic(8), "wall fit"));
 }
 
 TEST(TermSelection, HydrostaticDiffusionNeedsBothBodyForceAndDiffusion) {

@@ -6,6 +6,12 @@
 namespace slurry::testing {
 namespace {
 
+Scene channel_with_means(double lid_speed) {
+    Scene scene = flat_channel(12, lid_speed);
+    scene.numerics.wall_extrapolation = WallExtrapolation::mean;
+    return scene;
+}
+
 void extrapolate(const Scene& scene, Particles& particles) {
     const auto interactions = make_interactions(scene);
     interactions->refresh_neighbours(particles);
@@ -33,7 +39,7 @@ template <class Check> void for_near_dummies(const Scene& scene, const Particles
 }
 
 TEST(WallExtrapolation, ReproducesAConstantOnDisorderedParticles) {
-    Scene scene = flat_channel(12, 0.7);
+    Scene scene = channel_with_means(0.7);
     jitter(scene, 0.3);
     Particles particles = arrange(scene);
     FluidParticles& fluid = particles.fluid;
@@ -51,7 +57,7 @@ TEST(WallExtrapolation, ReproducesAConstantOnDisorderedParticles) {
 }
 
 TEST(WallExtrapolation, ContinuesAHydrostaticPressureIntoTheWall) {
-    Scene scene = flat_channel(12);
+    Scene scene = channel_with_means(0);
     jitter(scene, 0.3);
     scene.fluid.body_force = {0.3, -9.81};
     Particles particles = arrange(scene);
@@ -75,7 +81,7 @@ TEST(WallExtrapolation, ContinuesAHydrostaticPressureIntoTheWall) {
 }
 
 TEST(WallExtrapolation, NeverGivesAValueThatIsNotFinite) {
-    Scene scene = flat_channel(12, 1);
+    Scene scene = channel_with_means(1);
     Particles particles = arrange(scene);
     disorder(particles, scene);
     for (double& y : particles.fluid.y) {

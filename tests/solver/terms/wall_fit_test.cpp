@@ -1,0 +1,171 @@
+// The polynomials that dummies continue through their wall.
+#include "tests/solver/scenes_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace slurry::testing {
+namespace {
+
+// Velocity less the wall's n (b0 + b1 s + b2 n), pressure c0 + c1 s + c2 n, in the (parabolic) coordinates of
+// the wall at the point nearest to one dummy, in smoothing lengths.
+struct Polynomials {
+    Vector b0, b1, b2;
+    double c0, c1, c2;
+
+    [[nodiscard]] Vector velocity(double s, double n) const { return n * (b0 + s * b1 + n * b2); }
+    [[nodiscard]] double pressure(double s, double n) const { return c0 + c1 * s + c2 * n; }
+};
+
+double nearest_image(double offset, double length) {
+    return offset - std::round(offset / length) * length;
+}
+
+// Gives the fluid the polynomials about dummy d; periodic images as near to the dummy as they come.
+void set_fluid(Particles& particles, const Scene& scene, std::size_t d, const Polynomials& polynomials) {
+    FluidParticles& fluid = particles.fluid;
+    const DummyParticles& dummies = particles.dummies;
+    const double h = scene.numerics.smoothing_length();
+    const Vector normal(dummies.normal_x[d], dummies.normal_y[d]);
+    const Vector wall_point = Vector(dummies.x[d], dummies.y[d]) + dummies.depth[d] * normal;
+    const Vector wall_velocity = dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])];
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        Vector offset = Vector(fluid.x[i], fluid.y[i]) - wall_point;
+        offset.x() = nearest_image(offset.x(), scene.domain.size().x());
+        const double along = offset.dot(Vector(normal.y(), -normal.x()));
+        const double across = offset.dot(normal) - dummies.curvature[d] * along * along / 2;
+        const Vector velocity = wall_velocity + polynomials.velocity(along / h, across / h);
+        fluid.velocity_x[i] = velocity.x();
+        fluid.velocity_y[i] = velocity.y();
+        fluid.pressure[i] = polynomials.pressure(along / h, across / h);
+    }
+}
+
+void expect_exact_continuation(Scene scene) {
+    jitter(scene, 0.3);
+    Particles particles = arrange(scene);
+    const auto interactions = make_interactions(scene);
+    interactions->refresh_neighbours(particles);
+    const DummyParticles& dummies = particles.dummies;
+    std::mt19937 generator(5);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const auto random = [&] { return uniform(generator); };
+    const auto random_vector = [&] {
+        const double x = random();
+        return Vector(x, random());
+    };
+    ASSERT_GE(dummies.size(), 2 * 3 * 12U);
+    for (std::size_t d = 0; d < dummies.size(); ++d) {
+        SCOPED_TRACE("dummy " + std::to_string(d));
+        const Polynomials polynomials{random_vector(), random_vector(), random_vector(),
+                                      1000 * random(), 1000 * random(), 1000 * random()};
+        set_fluid(particles, scene, d, polynomials);
+        interactions->extrapolate_to_walls(particles);
+        const double n = -dummies.depth[d] / scene.numerics.smoothing_length();
+        const Vector expected =
+            dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])] + polynomials.velocity(0, n);
+        const double pressure = polynomials.pressure(0, n);
+        EXPECT_NEAR(dummies.velocity_x[d], expected.x(), 1e-9 * expected.norm());
+        EXPECT_NEAR(dummies.velocity_y[d], expected.y(), 1e-9 * expected.norm());
+        EXPECT_NEAR(dummies.pressure[d], pressure, 1e-9 * std::abs(pressure));
+    }
+}
+
+TEST(WallFit, ContinuesItsPolynomialsThroughAFlatMovingWall) {
+    expect_exact_continuation(flat_channel(12, 0.7));
+}
+
+TEST(WallFit, ContinuesItsPolynomialsThroughACurvedWall) {
+    for (const double amplitude : {0.1, -0.1}) { // steepest where it crosses the periodic side
+        Scene scene = flat_channel(12, 0.7);
+        scene.walls[0].shape = CosineShape{0.35, amplitude, 1, -0.05};
+        scene.walls[0].velocity = {-0.4, 0};
+        expect_exact_continuation(scene);
+    }
+}
+
+TEST(WallFit, ContinuesItsPolynomialsToDummiesOnALattice) {
+    Scene scene = flat_channel(12, 0.7);
+    scene.walls[0].shape = CosineShape{0.35, 0.1, 1, -0.05};
+    scene.numerics.wall_dummies = DummyLayout::lattice;
+    expect_exact_continuation(scene);
+}
+
+// One row of fluid, half a spacing above the floor of a channel; the lid is out of its reach.
+Particles single_row(const Scene& scene) {
+    Particles particles = arrange(scene);
+    const double spacing = scene.numerics.particle_spacing;
+    FluidParticles& fluid = particles.fluid;
+    fluid.resize(12);
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        fluid.x[i] = scene.domain.lower.x() + (static_cast<double>(i) + 0.5) * spacing;
+        fluid.y[i] = scene.domain.lower.y() + 0.5 * spacing;
+    }
+    return particles;
+}
+
+void extrapolate(const Scene& scene, Particles& particles) {
+    const auto interactions = make_interactions(scene);
+    interactions->refresh_neighbours(particles);
+    interactions->extrapolate_to_walls(particles);
+}
+
+TEST(WallFit, FallsBackToAStraightLineBesideASingleRow) {
+    Scene scene = flat_channel(12, 0.7);
+    scene.walls[0].velocity = {-0.3, 0};
+    Particles particles = single_row(scene);
+    FluidParticles& fluid = particles.fluid;
+    std::fill(fluid.velocity_x.begin(), fluid.velocity_x.end(), 0.4);
+    std::fill(fluid.velocity_y.begin(), fluid.velocity_y.end(), -0.1);
+    std::fill(fluid.pressure.begin(), fluid.pressure.end(), 123.0);
+    extrapolate(scene, particles);
+    const DummyParticles& dummies = particles.dummies;
+    for (std::size_t d = 0; d < dummies.size(); ++d) {
+        if (dummies.wall[d] == 0) { // antisymmetric about the wall's velocity at the depth of the row
+            const double ratio = dummies.depth[d] / (0.5 * scene.numerics.particle_spacing);
+            EXPECT_NEAR(dummies.velocity_x[d], -0.3 - ratio * 0.7, 1e-12);
+            EXPECT_NEAR(dummies.velocity_y[d], ratio * 0.1, 1e-12);
+            EXPECT_NEAR(dummies.pressure[d], 123, 1e-10);
+        }
+    }
+}
+
+TEST(WallFit, StaysFiniteBesideASingleDisorderedRow) {
+    const Scene scene = flat_channel(12, 0.7);
+    Particles particles = single_row(scene);
+    disorder(particles, scene);
+    extrapolate(scene, particles);
+    const DummyParticles& dummies = particles.dummies;
+    const double deepest = *std::max_element(dummies.depth.begin(), dummies.depth.end());
+    const double ratio = deepest / (0.5 * scene.numerics.particle_spacing);
+    for (const auto* values : {&dummies.velocity_x, &dummies.velocity_y}) {
+        EXPECT_LE(largest(*values), ratio * (1 + 1e-12)); // a line through the wall and a mean of the row
+    }
+    EXPECT_LE(largest(dummies.pressure), largest(particles.fluid.pressure) * (1 + 1e-12));
+}
+
+TEST(WallFit, LeavesTheWallsVelocityAndNoPressureWithoutFluidInReach) {
+    const Scene scene = flat_channel(12, 0.7);
+    Particles particles = single_row(scene);
+    disorder(particles, scene);
+    std::fill(particles.dummies.pressure.begin(), particles.dummies.pressure.end(), 5.0);
+    extrapolate(scene, particles);
+    const DummyParticles& dummies = particles.dummies;
+    std::size_t of_lid = 0;
+    for (std::size_t d = 0; d < dummies.size(); ++d) {
+        if (dummies.wall[d] == 1) {
+            EXPECT_EQ(dummies.velocity_x[d], 0.7);
+            EXPECT_EQ(dummies.velocity_y[d], 0);
+            EXPECT_EQ(dummies.pressure[d], 0);
+            ++of_lid;
+        }
+    }
+    EXPECT_EQ(of_lid, 3 * 12U);
+}
+
+} // namespace
+} // namespace slurry::testing
