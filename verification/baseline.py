@@ -2,7 +2,8 @@
 
 A run fails when an error has grown by more than 10 % over its accepted value, even inside its tolerance.
 Growth of less than 2 % of the tolerance is not held against it: an error close to zero may double on another
-compiler. A value of a complete run that has gone missing fails too. `python -m verification.baseline
+compiler. On another processor than the baseline's the last bits differ, the particles take other paths, and
+instantaneous errors scatter: there the limit is 50 %. A value of a complete run that has gone missing fails too. `python -m verification.baseline
 --accept` accepts the last results; the commit of baseline.json is where a person reviews them.
 """
 
@@ -18,9 +19,10 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent
 PATH = ROOT / "baseline.json"
 LARGEST_GROWTH = 0.10
+LARGEST_GROWTH_ELSEWHERE = 0.50  # rounding alone has moved the rough channel's pressure error by 22 %
 FLOOR = 0.02  # of the tolerance
 
-Baseline = dict[str, dict[str, float]]  # level -> case/scheme/variant/spacing/quantity -> error
+Baseline = dict[str, Any]  # level -> case/scheme/variant/spacing/quantity -> error; "processor" -> its name
 
 
 def load(path: Path = PATH) -> Baseline:
@@ -41,9 +43,15 @@ def values(results: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
             yield "/".join(names), check
 
 
+def processor(results: dict[str, Any]) -> str | None:
+    return results.get("machine", {}).get("processor")
+
+
 def compare(results: dict[str, Any], baseline: Baseline) -> list[dict[str, Any]]:
     """One row for each check: status "regression", "missing", "improved", "unchanged" or "new"."""
     accepted = dict(baseline.get(results["level"], {}))
+    here = baseline.get("processor") == processor(results)
+    growth = LARGEST_GROWTH if here else LARGEST_GROWTH_ELSEWHERE
     rows = []
     for key, check in values(results):
         old, new = accepted.pop(key, None), check["value"]
@@ -52,9 +60,9 @@ def compare(results: dict[str, Any], baseline: Baseline) -> list[dict[str, Any]]
             status = "new"
         elif new is None:
             status = "missing"
-        elif new > (1 + LARGEST_GROWTH) * old and new - old > floor:
+        elif new > (1 + growth) * old and new - old > floor:
             status = "regression"
-        elif new < old / (1 + LARGEST_GROWTH) and old - new > floor:
+        elif new < old / (1 + growth) and old - new > floor:
             status = "improved"
         else:
             status = "unchanged"
@@ -94,7 +102,8 @@ def accept(results: dict[str, Any], baseline: Baseline) -> Baseline:
         raise ValueError(f"{len(bad)} checks fail, first {bad[0]}: only a run that passes can be accepted")
     level = {} if results["complete"] else dict(baseline.get(results["level"], {}))
     level |= {key: float(f"{check['value']:.4g}") for key, check in values(results)}
-    return baseline | {results["level"]: dict(sorted(level.items()))}
+    name = processor(results)
+    return baseline | ({"processor": name} if name else {}) | {results["level"]: dict(sorted(level.items()))}
 
 
 def main(argv: Sequence[str] | None = None) -> int:

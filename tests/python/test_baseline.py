@@ -69,3 +69,14 @@ def test_command_line(tmp_path, capsys):
     assert baseline.main([*options, "--accept"]) == 0
     assert "nothing has changed" in capsys.readouterr().out
     assert baseline.main(["--results", str(tmp_path / "none.json")]) == 2
+
+
+def test_another_processor_scatters_more_but_not_without_limit():
+    accepted = {"processor": "this one", "gate": {KEY: 0.005}}
+    for processor, error, status in (
+        ("this one", 0.0060, "regression"),
+        ("another", 0.0060, "unchanged"),
+        ("another", 0.0080, "regression"),
+    ):
+        found = results(error) | {"machine": {"processor": processor}}
+        assert [row["status"] for row in baseline.compare(found, accepted)] == [status]
