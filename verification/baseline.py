@@ -3,8 +3,9 @@
 A run fails when an error has grown by more than 10 % over its accepted value, even inside its tolerance.
 Growth of less than 2 % of the tolerance is not held against it: an error close to zero may double on another
 compiler. On another processor than the baseline's the last bits differ, the particles take other paths, and
-instantaneous errors scatter: there the limit is 50 %. A value of a complete run that has gone missing fails too. `python -m verification.baseline
---accept` accepts the last results; the commit of baseline.json is where a person reviews them.
+instantaneous errors scatter: there the limit is 50 %. A value of a complete run that has gone missing fails
+too. `python -m verification.baseline --accept` accepts the last results; the commit of baseline.json is where
+a person reviews them.
 """
 
 from __future__ import annotations
