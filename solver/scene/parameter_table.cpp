@@ -63,8 +63,8 @@ const std::vector<Section> section_table{
 const std::vector<Parameter> parameter_table{
     {"scene", "", "title", member(&Scene::title), "", word(""), anything(), "one line for reports"},
     {"scene", "", "scheme", member(&Scene::scheme), "", word("default"), one_of({"default", "wang2014"}),
-     "wang2014 is the paper's scheme as written; default adds density diffusion and dummies along the "
-     "walls"},
+     "sets defaults of numerics: wang2014 is the paper's scheme, default what README's section Schemes "
+     "lists"},
 
     {"domain", "", "lower", member(&Domain::lower), "m", required, anything(), "lower left corner [x, y]"},
     {"domain", "", "upper", member(&Domain::upper), "m", required, anything(), "upper right corner [x, y]"},
