@@ -7,7 +7,7 @@ LEVEL ?= gate
 BUILD := build
 JOBS ?= $(shell nproc)
 PYTHON := .venv/bin/python
-# Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_NATIVE=OFF
+# Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
 .PHONY: help setup configure build test reference verify report faults baseline lint format docs clean
