@@ -15,15 +15,24 @@ struct QuinticSpline {
     static constexpr std::array<double, 3> normalisation{1.0 / 120, 7 / (478 * std::numbers::pi),
                                                          1 / (120 * std::numbers::pi)};
 
-    // f(q) / lambda. The powers of positive parts give the four cases of Eq. 2.4 without a branch.
-    template <class P> static P shape(const P& q) {
-        return fifth(positive_part(3 - q)) - 6 * fifth(positive_part(2 - q)) +
-               15 * fifth(positive_part(1 - q));
+    // h^2 W in two dimensions, from s = (r/h)^2. The powers of positive parts give the four cases of Eq. 2.4
+    // without a branch.
+    template <class P> static P value(const P& s) {
+        using Real = Element<P>;
+        const P q = s * inverse_square_root(s);
+        return Real(normalisation[1]) * fifth(positive_part(3 - q)) -
+               Real(6 * normalisation[1]) * fifth(positive_part(2 - q)) +
+               Real(15 * normalisation[1]) * fifth(positive_part(1 - q));
     }
-    // f'(q) / lambda
-    template <class P> static P slope(const P& q) {
-        return -5 * fourth(positive_part(3 - q)) + 30 * fourth(positive_part(2 - q)) -
-               75 * fourth(positive_part(1 - q));
+    // h^4 (dW/dr) / r
+    template <class P> static P slope(const P& s) {
+        using Real = Element<P>;
+        const P inverse = inverse_square_root(s);
+        const P q = s * inverse;
+        return (Real(30 * normalisation[1]) * fourth(positive_part(2 - q)) -
+                Real(5 * normalisation[1]) * fourth(positive_part(3 - q)) -
+                Real(75 * normalisation[1]) * fourth(positive_part(1 - q))) *
+               inverse;
     }
 
   private:

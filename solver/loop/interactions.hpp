@@ -8,6 +8,15 @@
 
 namespace slurry {
 
+// What the neighbour lists cost. Counts are those of the fluid's lists as they are now.
+struct ListStatistics {
+    long rebuilds = 0;         // since the start
+    std::size_t pairs = 0;     // nearer than the kernel's support and the skin when the lists were made
+    std::size_t evaluated = 0; // with the padding that fills the vectors' lanes
+    std::size_t useful = 0;    // nearer than the kernel's support now
+    std::size_t bytes = 0;     // of all lists and rows
+};
+
 class Interactions {
   public:
     Interactions() = default;
@@ -26,13 +35,13 @@ class Interactions {
     virtual void extrapolate_to_walls(Particles& particles) = 0;
     // Eqs. 2.15, 2.19 and 2.20 (without the body force), into fluid.acceleration and fluid.background.
     virtual void compute_forces(Particles& particles) = 0;
-    // Number of times that the neighbour lists were made.
-    [[nodiscard]] virtual long rebuilds() const = 0;
+    [[nodiscard]] virtual ListStatistics list_statistics(const Particles& particles) const = 0;
 };
 
 // As wide as the machine's vectors, or with plain numbers (the reference that the wide loops are tested
 // against).
 enum class LoopWidth : unsigned char { native, plain };
+// Sums over pairs in the scene's arithmetic and with its kernel; plain is always in double precision.
 std::unique_ptr<Interactions> make_interactions(const Scene& scene, LoopWidth width = LoopWidth::native);
 
 } // namespace slurry

@@ -59,6 +59,10 @@ void NeighbourList::build(std::span<const double> x, std::span<const double> y, 
             std::fill(counts_.begin(), counts_.end(), 0);
         }
     }
+    for (auto& e : entries_)
+        e *= stride_;
+    for (auto& t : targets_)
+        t *= stride_;
 }
 
 } // namespace slurry

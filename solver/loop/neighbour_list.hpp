@@ -11,7 +11,10 @@ namespace slurry {
 
 class NeighbourList {
   public:
-    explicit NeighbourList(int width) : width_(static_cast<std::size_t>(width)) {}
+    // A list for blocks of `width` targets. An entry is the neighbour's index times `stride`: the distance of
+    // two rows in bytes, so that the pair loop need not multiply.
+    explicit NeighbourList(int width, std::size_t stride = 1)
+        : width_(static_cast<std::size_t>(width)), stride_(static_cast<std::uint32_t>(stride)) {}
 
     // Lists for targets first ... last - 1 all points of the grid nearer than the cut-off, themselves
     // excepted, in an order that depends on the grid alone.
@@ -30,6 +33,7 @@ class NeighbourList {
 
   private:
     std::size_t width_;
+    std::uint32_t stride_;
     std::size_t capacity_ = 40; // per lane; grows when a target has more neighbours
     std::vector<std::uint32_t> targets_;
     std::vector<std::uint32_t> entries_;

@@ -135,37 +135,6 @@ std::vector<std::uint32_t> PeriodicRows::all_rows() const {
     return rows;
 }
 
-double PeriodicRows::relative_displacement(const Particles& particles) const {
-    // All particles' displacements lie in a box; no two differ by more than its diagonal. A motion common to
-    // all costs no rebuild.
-    const auto range = [](const std::vector<double>& now, const double* before, double& lowest,
-                          double& highest) {
-        const std::size_t count = now.size();
-        double low = lowest;
-        double high = highest;
-#pragma omp simd reduction(min : low) reduction(max : high)
-        for (std::size_t k = 0; k < count; ++k) {
-            const double moved = now[k] - before[k];
-            low = moved < low ? moved : low;
-            high = moved > high ? moved : high;
-        }
-        lowest = low;
-        highest = high;
-    };
-    if (particle_count_ == 0) {
-        return 0;
-    }
-    double low_x = particles.fluid.x[0] - x_[0];
-    double low_y = particles.fluid.y[0] - y_[0];
-    double high_x = low_x;
-    double high_y = low_y;
-    range(particles.fluid.x, x_.data(), low_x, high_x);
-    range(particles.fluid.y, y_.data(), low_y, high_y);
-    range(particles.dummies.x, x_.data() + fluid_count_, low_x, high_x);
-    range(particles.dummies.y, y_.data() + fluid_count_, low_y, high_y);
-    return std::hypot(high_x - low_x, high_y - low_y);
-}
-
 std::string PeriodicRows::farthest_moved(const Particles& particles) const {
     const FluidParticles& fluid = particles.fluid;
     std::size_t farthest = 0;

@@ -36,9 +36,6 @@ class PeriodicRows {
     [[nodiscard]] std::vector<std::uint32_t> fluid_rows() const;
     [[nodiscard]] std::vector<std::uint32_t> all_rows() const;
 
-    // Largest displacement of any two particles against each other since the rebuild, m (an upper bound).
-    [[nodiscard]] double relative_displacement(const Particles& particles) const;
-
     // Names the fluid particle that has moved farthest since the rebuild, for messages.
     [[nodiscard]] std::string farthest_moved(const Particles& particles) const;
 

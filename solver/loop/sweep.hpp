@@ -6,7 +6,7 @@
 //   add(Sums<P>&, const Pair<P>&, const View<P>& i, const View<P>& j)   one pair
 //   finish(const Sums<P>&, const View<P>& i, const Coefficients&, Result<P>&)   after the last neighbour
 // where View names the fields of the pass's rows. What a composition does not name is not compiled into its
-// loop.
+// loop. A term whose finish takes the sums as a template parameter can read those of the others.
 #include "solver/loop/neighbour_list.hpp"
 #include "solver/loop/pair.hpp"
 #include "solver/loop/row.hpp"
@@ -25,26 +25,24 @@ template <class... Terms> struct Composition {
     template <class P, class View, class Coefficients, class Result>
     static void finish(const AllSums<P, Terms...>& sums, const View& i, const Coefficients& coefficients,
                        Result& result) {
-        (Terms::finish(static_cast<const typename Terms::template Sums<P>&>(sums), i, coefficients, result),
-         ...);
+        (Terms::finish(sums, i, coefficients, result), ...);
     }
 };
 
 // One block of W targets. Flattened: a call inside the loop would send its vectors through memory.
 template <class Real, int W, class Kernel, template <class> class View, template <class> class Result,
           class Coefficients, class... Terms>
-[[gnu::flatten]] Result<Pack<Real, W>>
-sweep_block(Composition<Terms...> /*which*/, const NeighbourList& list, std::size_t block,
-            const Row<Real>* rows, const KernelScale<Real>& scale_in, const Coefficients& coefficients) {
+[[gnu::flatten]] Result<Pack<Real, W>> sweep_block(Composition<Terms...> /*which*/, const NeighbourList& list,
+                                                   std::size_t block, const Row<Real>* rows,
+                                                   const Coefficients& coefficients) {
     using P = Pack<Real, W>;
-    const KernelScale<Real> scale = scale_in;
     const View<P> i{gather<Real, W>(rows, list.targets(block))};
     AllSums<P, Terms...> sums{};
     const std::uint32_t* neighbours = list.neighbours(block);
     const std::uint32_t* const end = neighbours + list.count(block) * static_cast<std::size_t>(W);
     for (; neighbours != end; neighbours += W) {
         const View<P> j{gather<Real, W>(rows, neighbours)};
-        const Pair<P> pair = make_pair<Kernel>(scale, P(i.x() - j.x()), P(i.y() - j.y()));
+        const Pair<P> pair = make_pair<Kernel>(P(i.x() - j.x()), P(i.y() - j.y()));
         Composition<Terms...>::add(sums, pair, i, j);
     }
     Result<P> result{};
@@ -57,14 +55,13 @@ sweep_block(Composition<Terms...> /*which*/, const NeighbourList& list, std::siz
 template <class Real, int W, class Kernel, template <class> class View, template <class> class Result,
           class Coefficients, class... Terms, class StoreResult>
 void sweep(Composition<Terms...> which, const NeighbourList& list, std::span<const Row<Real>> rows,
-           const KernelScale<Real>& scale, const Coefficients& coefficients, StoreResult&& store_result) {
+           const Coefficients& coefficients, StoreResult&& store_result) {
     const auto blocks = static_cast<std::ptrdiff_t>(list.block_count());
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t signed_block = 0; signed_block < blocks; ++signed_block) {
         const auto block = static_cast<std::size_t>(signed_block);
-        store_result(
-            block * static_cast<std::size_t>(W),
-            sweep_block<Real, W, Kernel, View, Result>(which, list, block, rows.data(), scale, coefficients));
+        store_result(block * static_cast<std::size_t>(W), sweep_block<Real, W, Kernel, View, Result>(
+                                                              which, list, block, rows.data(), coefficients));
     }
 }
 

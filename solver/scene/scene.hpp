@@ -22,6 +22,11 @@ enum class WallContinuity : std::uint8_t { wall_velocity, extrapolated };
 enum class ParticleVolume : std::uint8_t { mass_over_density, number_density };
 // How the fluid is continued to the dummies of a wall: kernel means (2.16, 2.17) or least-squares fits.
 enum class WallExtrapolation : std::uint8_t { mean, fit };
+// Of the sums over pairs. The state, its integration and the output are in double precision always.
+enum class PairArithmetic : std::uint8_t { single_precision, double_precision };
+enum class KernelShape : std::uint8_t { quintic, wendland_c2, wendland_c4, compact_gaussian };
+// Pressure between two particles: weighted with their densities (Eq. 2.15), or (p_i + p_j) / 2.
+enum class PressureMean : std::uint8_t { density_weighted, plain };
 enum class Arrangement : std::uint8_t { lattice, jittered, relaxed };
 enum class InitialVelocity : std::uint8_t { rest, shear, taylor_green };
 enum class FluidSide : std::uint8_t { above, below, left, right };
@@ -43,7 +48,9 @@ struct Fluid {
 };
 
 struct Numerics {
-    double particle_spacing = 0;          // m
+    double particle_spacing = 0; // m
+    PairArithmetic pair_arithmetic = PairArithmetic::single_precision;
+    KernelShape kernel = KernelShape::quintic;
     double smoothing_ratio = 1;           // smoothing length / particle spacing
     double sound_speed = 0;               // m/s
     double background_pressure_ratio = 1; // p_b / (rho0 c^2); 0 = no transport velocity
@@ -53,6 +60,7 @@ struct Numerics {
     double density_diffusion = 0; // delta of delta-SPH; 0 = off
     bool gradient_correction = true;
     bool advection_tensor = true;
+    PressureMean pressure_mean = PressureMean::density_weighted;
     DummyLayout wall_dummies = DummyLayout::curve;
     WallExtrapolation wall_extrapolation = WallExtrapolation::fit;
     WallContinuity wall_continuity = WallContinuity::wall_velocity;

@@ -17,7 +17,8 @@ struct PressureForce {
     template <class P> struct Sums { P pressure_x{}, pressure_y{}; };
     template <class P>
     static void add(Sums<P>& sums, const Pair<P>& pair, const ForceView<P>& i, const ForceView<P>& j) {
-        const P mean_pressure = (i.volume_pressure() + j.volume_pressure()) / (i.volume() + j.volume());
+        const P mean_pressure =
+            (i.volume() * i.pressure() + j.volume() * j.pressure()) * reciprocal(P(i.volume() + j.volume()));
         const P weight = force_weight(pair, i, j) * mean_pressure;
         sums.pressure_x += weight * pair.dx;
         sums.pressure_y += weight * pair.dy;

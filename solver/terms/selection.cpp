@@ -10,6 +10,7 @@ TermSelection select_terms(const Scene& scene) {
     terms.gradient_correction = numerics.gradient_correction;
     terms.density_diffusion = numerics.density_diffusion > 0;
     terms.hydrostatic_diffusion = terms.density_diffusion && scene.fluid.body_force.squaredNorm() > 0;
+    terms.density_weighted_pressure = numerics.pressure_mean == PressureMean::density_weighted;
     terms.viscosity = scene.fluid.dynamic_viscosity > 0;
     terms.transport_velocity = numerics.background_pressure_ratio > 0;
     terms.advection_tensor = terms.transport_velocity && numerics.advection_tensor;
@@ -30,6 +31,9 @@ std::vector<TermReason> explain_terms(const Scene& scene) {
          terms.hydrostatic_diffusion ? "fluid.body_force is not zero"
                                      : "no body force, or no density diffusion"},
         {"pressure force (2.15)", true, "always"},
+        {"density weights of the mean pressure (2.15)", terms.density_weighted_pressure,
+         terms.density_weighted_pressure ? "numerics.pressure_mean = density_weighted"
+                                         : "numerics.pressure_mean = plain"},
         {"viscous force (2.15)", terms.viscosity,
          fmt::format("fluid.dynamic_viscosity = {} Pa s", scene.fluid.dynamic_viscosity)},
         {"transport velocity (2.18, 2.19)", terms.transport_velocity,

@@ -12,6 +12,7 @@ struct TermSelection {
     bool gradient_correction = false;
     bool density_diffusion = false;
     bool hydrostatic_diffusion = false;
+    bool density_weighted_pressure = false;
     bool viscosity = false;
     bool transport_velocity = false;
     bool advection_tensor = false;

@@ -1,5 +1,6 @@
 #pragma once
-// The names of a row's fields in each pass, and what each pass gives back.
+// The names of a row's fields in each pass, and what each pass gives back, in the units of
+// solver/loop/units.hpp.
 #include "solver/loop/row.hpp"
 
 namespace slurry {
@@ -16,12 +17,10 @@ template <class P> struct RateView {
     const P& density() const { return field[5]; }
     const P& fluid_volume() const { return field[6]; }
 };
-template <class P> struct Rate {
-    P density_rate; // kg/(m3 s)
-};
+template <class P> struct Rate { P density_rate; };
 template <class Real> struct RateCoefficients {
-    Real diffusivity;     // delta h c, m2/s
-    Real density_slope_x; // hydrostatic: rho0 f / c^2, kg/m4
+    Real diffusivity;     // delta h c
+    Real density_slope_x; // hydrostatic: rho0 f / c^2
     Real density_slope_y;
 };
 
@@ -32,9 +31,7 @@ template <class P> struct VolumeView {
     const P& y() const { return field[1]; }
     const P& weight() const { return field[2]; } // volume / particle_spacing^2 for dummies, 1 for fluid
 };
-template <class P> struct Volume {
-    P volume; // m2
-};
+template <class P> struct Volume { P volume; };
 template <class Real> struct VolumeCoefficients {
     Real self_kernel; // W(0)
 };
@@ -51,11 +48,11 @@ template <class P> struct ForceView {
     } // rho (advection velocity - velocity); 0 for dummies
     const P& shift_momentum_y() const { return field[5]; }
     const P& volume() const { return field[6]; }
-    const P& volume_pressure() const { return field[7]; } // volume times pressure
+    const P& pressure() const { return field[7]; }
 };
 template <class P> struct Acceleration {
-    P x, y;                       // of the momentum equation, m/s2
-    P background_x, background_y; // by the background pressure, m/s2
+    P x, y;                       // of the momentum equation
+    P background_x, background_y; // by the background pressure
 };
 template <class Real> struct ForceCoefficients {
     Real inverse_mass;
@@ -63,18 +60,18 @@ template <class Real> struct ForceCoefficients {
     Real background_pressure;
 };
 
-// Wall fits. A dummy's row holds the nearest point of the wall, the frame there in smoothing lengths, and the
-// wall's velocity; a fluid particle's row its velocity and pressure.
+// Wall fits. A dummy's row holds the nearest point of the wall, the frame there, and the wall's velocity; a
+// fluid particle's row its velocity and pressure.
 template <class P> struct WallView {
     Fields<P> field;
     const P& x() const { return field[0]; }
     const P& y() const { return field[1]; }
-    const P& normal_x() const { return field[2]; } // unit vector / h, 1/m
+    const P& normal_x() const { return field[2]; } // into the fluid
     const P& normal_y() const { return field[3]; }
     const P& wall_velocity_x() const { return field[4]; }
     const P& wall_velocity_y() const { return field[5]; }
-    const P& depth() const { return field[6]; }          // / h
-    const P& half_curvature() const { return field[7]; } // times h
+    const P& depth() const { return field[6]; }
+    const P& half_curvature() const { return field[7]; }
     const P& velocity_x() const { return field[2]; }
     const P& velocity_y() const { return field[3]; }
     const P& pressure() const { return field[4]; }

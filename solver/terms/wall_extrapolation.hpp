@@ -33,7 +33,7 @@ struct PressureExtrapolation {
                     const ForceView<P>& fluid) {
         const P number_weight = pair.kernel / fluid.volume();
         sums.weight += pair.kernel;
-        sums.pressure += number_weight * fluid.volume_pressure();
+        sums.pressure += pair.kernel * fluid.pressure();
         sums.lever_x += number_weight * pair.dx;
         sums.lever_y += number_weight * pair.dy;
     }

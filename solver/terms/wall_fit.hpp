@@ -7,12 +7,14 @@
 // not linear. The fits continue the polynomials of the fluid through the wall instead:
 //   velocity - V_wall = n (b_0 + b_1 s + b_2 n)     no slip at n = 0, exactly
 //   pressure          = c_0 + c_1 s + c_2 n
-// with n the distance from the (parabolic) wall and s the offset along it, in smoothing lengths, and weights
+// with n the distance from the (parabolic) wall and s the offset along it, and weights
 // (1 - (r / 3h)^2)^2, wide enough for two rows of particles in a gap to decide on b_2.
 #include "solver/loop/pair.hpp"
 #include "solver/terms/views.hpp"
 
 namespace slurry {
+
+inline constexpr double wall_fit_support = 3; // in smoothing lengths
 
 // Wall coordinates and weight of a fluid particle, seen from the wall point of a dummy.
 template <class P> struct WallOffset { P along, across, weight; };
@@ -20,7 +22,8 @@ template <class P> struct WallOffset { P along, across, weight; };
 template <class P> WallOffset<P> wall_offset(const Pair<P>& pair, const WallView<P>& dummy) {
     const P across = -(pair.dx * dummy.normal_x() + pair.dy * dummy.normal_y());
     const P along = pair.dy * dummy.normal_x() - pair.dx * dummy.normal_y();
-    const P remaining = positive_part(1 - (along * along + across * across) * (1.0 / 9));
+    const P remaining = positive_part(1 - (along * along + across * across) *
+                                              Element<P>(1 / (wall_fit_support * wall_fit_support)));
     return {along, across - dummy.half_curvature() * along * along, remaining * remaining};
 }
 
@@ -64,7 +67,7 @@ struct VelocityFit {
         const P c12 = s.a01 * s.a02 - s.a00 * s.a12;
         const P c22 = s.a00 * s.a11 - s.a01 * s.a01;
         const P determinant = s.a00 * c00 + s.a01 * c01 + s.a02 * c02;
-        const auto solvable = determinant > Real{1e-3} * s.a00 * s.a11 * s.a22;
+        const auto solvable = determinant > Real(1e-3) * s.a00 * s.a11 * s.a22;
         const P inverse = solvable ? 1 / determinant : zero;
         const P line = solvable ? zero : (s.a00 > zero ? 1 / s.a00 : zero);
         const P depth = dummy.depth();
@@ -108,7 +111,7 @@ struct PressureFit {
         const P c12 = s.ms * s.mn - s.m0 * s.msn;
         const P c22 = s.m0 * s.mss - s.ms * s.ms;
         const P determinant = s.m0 * c00 + s.ms * c01 + s.mn * c02;
-        const auto solvable = determinant > Real{1e-3} * s.m0 * s.mss * s.mnn;
+        const auto solvable = determinant > Real(1e-3) * s.m0 * s.mss * s.mnn;
         const P inverse = solvable ? 1 / determinant : zero;
         const P mean = solvable ? zero : (s.m0 > zero ? s.p0 / s.m0 : zero);
         const P at_wall = (c00 * s.p0 + c01 * s.ps + c02 * s.pn) * inverse;

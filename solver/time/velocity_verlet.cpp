@@ -6,45 +6,42 @@ namespace slurry {
 
 namespace {
 
-// Calls stage(i) for every fluid particle.
-template <class Stage> void for_each(const FluidParticles& fluid, Stage&& stage) {
+// Calls stages(i) for every fluid particle: consecutive stages in one loop read and write the state once.
+template <class Stages> void for_each(const FluidParticles& fluid, Stages&& stages) {
     const auto count = static_cast<std::ptrdiff_t>(fluid.size());
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for simd schedule(static)
     for (std::ptrdiff_t i = 0; i < count; ++i) {
-        stage(static_cast<std::size_t>(i));
+        stages(static_cast<std::size_t>(i));
     }
 }
 
 // Eqs. 2.29 and 2.34.
-void kick(FluidParticles& fluid, double time) {
-    for_each(fluid, [&](std::size_t i) {
-        fluid.velocity_x[i] += time * fluid.acceleration_x[i];
-        fluid.velocity_y[i] += time * fluid.acceleration_y[i];
-    });
+void kick(FluidParticles& fluid, std::size_t i, double time) {
+    fluid.velocity_x[i] += time * fluid.acceleration_x[i];
+    fluid.velocity_y[i] += time * fluid.acceleration_y[i];
 }
 
 // Eq. 2.30: how much faster than the fluid the particles move.
-void shift(FluidParticles& fluid, double time) {
-    for_each(fluid, [&](std::size_t i) {
-        fluid.shift_x[i] = time * fluid.background_x[i];
-        fluid.shift_y[i] = time * fluid.background_y[i];
-    });
+void shift(FluidParticles& fluid, std::size_t i, double time) {
+    fluid.shift_x[i] = time * fluid.background_x[i];
+    fluid.shift_y[i] = time * fluid.background_y[i];
 }
 
-// Eqs. 2.31 and 2.33; walls keep pace.
-void drift(Particles& particles, double time) {
-    FluidParticles& fluid = particles.fluid;
-    for_each(fluid, [&](std::size_t i) {
-        fluid.x[i] += time * (fluid.velocity_x[i] + fluid.shift_x[i]);
-        fluid.y[i] += time * (fluid.velocity_y[i] + fluid.shift_y[i]);
-    });
-    particles.time += time;
-    particles.dummies.move_to(particles.time);
+// Eqs. 2.31 and 2.33.
+void drift(FluidParticles& fluid, std::size_t i, double time) {
+    fluid.x[i] += time * (fluid.velocity_x[i] + fluid.shift_x[i]);
+    fluid.y[i] += time * (fluid.velocity_y[i] + fluid.shift_y[i]);
 }
 
 // Eq. 2.32
-void update_density(FluidParticles& fluid, double time) {
-    for_each(fluid, [&](std::size_t i) { fluid.density[i] += time * fluid.density_rate[i]; });
+void update_density(FluidParticles& fluid, std::size_t i, double time) {
+    fluid.density[i] += time * fluid.density_rate[i];
+}
+
+// The walls keep pace with the fluid.
+void move_walls(Particles& particles, double time) {
+    particles.time += time;
+    particles.dummies.move_to(particles.time);
 }
 
 void compute_accelerations(Particles& particles, Interactions& interactions, const Fluid& properties,
@@ -63,10 +60,12 @@ void compute_accelerations(Particles& particles, Interactions& interactions, con
     }
     const PhaseClock::Scope scope(clock, "forces");
     interactions.compute_forces(particles);
-    for_each(fluid, [&](std::size_t i) {
-        fluid.acceleration_x[i] += properties.body_force.x();
-        fluid.acceleration_y[i] += properties.body_force.y();
-    });
+    if (properties.body_force.squaredNorm() > 0) {
+        for_each(fluid, [&](std::size_t i) {
+            fluid.acceleration_x[i] += properties.body_force.x();
+            fluid.acceleration_y[i] += properties.body_force.y();
+        });
+    }
 }
 
 } // namespace
@@ -83,9 +82,14 @@ void advance(Particles& particles, Interactions& interactions, const Fluid& flui
         const PhaseClock::Scope scope(clock, "neighbours");
         interactions.refresh_neighbours(particles);
     };
-    kick(particles.fluid, time_step / 2);
-    shift(particles.fluid, time_step / 2);
-    drift(particles, time_step / 2);
+    FluidParticles& fluid_particles = particles.fluid;
+    const double half = time_step / 2;
+    for_each(fluid_particles, [&](std::size_t i) {
+        kick(fluid_particles, i, half);
+        shift(fluid_particles, i, half);
+        drift(fluid_particles, i, half);
+    });
+    move_walls(particles, half);
 
     refresh_neighbours();
     {
@@ -93,13 +97,16 @@ void advance(Particles& particles, Interactions& interactions, const Fluid& flui
         interactions.compute_density_rate(
             particles); // at the half step, so that density is second order in time
     }
-    update_density(particles.fluid, time_step);
-    drift(particles, time_step / 2); // with the velocity of the half step
+    for_each(fluid_particles, [&](std::size_t i) {
+        update_density(fluid_particles, i, time_step);
+        drift(fluid_particles, i, half); // with the velocity of the half step
+    });
+    move_walls(particles, half);
 
     refresh_neighbours();
     compute_accelerations(particles, interactions, fluid, sound_speed,
                           clock); // with the new density and positions
-    kick(particles.fluid, time_step / 2);
+    for_each(fluid_particles, [&](std::size_t i) { kick(fluid_particles, i, half); });
 }
 
 } // namespace slurry

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <vector>
@@ -31,7 +32,11 @@ template <class Real, int W> void expect_gather_matches_indexing() {
         for (auto& index : indices) {
             index = any(generator);
         }
-        const auto fields = gather<Real, W>(rows.data(), indices.data());
+        std::array<std::uint32_t, W> offsets{};
+        std::transform(indices.begin(), indices.end(), offsets.begin(), [](std::uint32_t index) {
+            return index * static_cast<std::uint32_t>(sizeof(Row<Real>));
+        });
+        const auto fields = gather<Real, W>(rows.data(), offsets.data());
         for (std::size_t f = 0; f < row_fields; ++f) {
             std::array<Real, W> lanes{};
             store(lanes.data(), fields[f]);
@@ -62,6 +67,9 @@ TEST(Gather, EightFloatsAreTransposed) {
 #ifdef __AVX512F__
 TEST(Gather, EightDoublesAreTransposed) {
     expect_gather_matches_indexing<double, 8>();
+}
+TEST(Gather, SixteenFloatsAreTransposed) {
+    expect_gather_matches_indexing<float, 16>();
 }
 #endif
 

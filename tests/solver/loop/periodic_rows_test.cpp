@@ -97,49 +97,5 @@ TEST(PeriodicRows, CopiesLieOnePeriodAwayWithinReach) {
     EXPECT_EQ(rows.copies().size(), 256U);
 }
 
-TEST(PeriodicRows, RelativeDisplacementIgnoresACommonMotion) {
-    const Scene scene = flat_channel(12, 1);
-    Particles particles = arrange(scene);
-    PeriodicRows rows;
-    rows.rebuild(particles, scene.domain, reach);
-    const auto move_all = [](std::vector<double>& positions, double distance) {
-        for (double& position : positions) {
-            position += distance;
-        }
-    };
-    move_all(particles.fluid.x, 5);
-    move_all(particles.dummies.x, 5);
-    EXPECT_NEAR(rows.relative_displacement(particles), 0, 1e-14);
-    particles.fluid.x[17] += 0.03;
-    particles.fluid.y[5] -= 0.04;
-    EXPECT_NEAR(rows.relative_displacement(particles), 0.05, 1e-14); // diagonal of the box of displacements
-    move_all(particles.dummies.x, 0.07);
-    EXPECT_NEAR(rows.relative_displacement(particles), std::hypot(0.07, 0.04), 1e-14);
-}
-
-TEST(PeriodicRows, RelativeDisplacementBoundsEveryPair) {
-    Scene scene = doubly_periodic(8);
-    Particles particles = arrange(scene);
-    PeriodicRows rows;
-    rows.rebuild(particles, scene.domain, reach);
-    const Particles before = particles;
-    disorder(particles, scene);
-    FluidParticles& fluid = particles.fluid;
-    for (std::size_t i = 0; i < fluid.size(); ++i) {
-        fluid.x[i] += 0.01 * fluid.velocity_x[i];
-        fluid.y[i] += 0.01 * fluid.velocity_y[i];
-    }
-    double apart = 0;
-    for (std::size_t i = 0; i < fluid.size(); ++i) {
-        for (std::size_t j = 0; j < fluid.size(); ++j) {
-            apart =
-                std::max(apart, std::hypot(fluid.x[i] - before.fluid.x[i] - fluid.x[j] + before.fluid.x[j],
-                                           fluid.y[i] - before.fluid.y[i] - fluid.y[j] + before.fluid.y[j]));
-        }
-    }
-    EXPECT_GE(rows.relative_displacement(particles), apart);
-    EXPECT_LE(rows.relative_displacement(particles), 2 * apart);
-}
-
 } // namespace
 } // namespace slurry::testing

@@ -1,0 +1,134 @@
+#include "solver/loop/displacement_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace slurry {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::ptrdiff_t cell_count(double length, double size) {
+    return std::max(std::ptrdiff_t{1}, static_cast<std::ptrdiff_t>(length / size));
+}
+
+// Cells beyond a periodic side are those at the other; beyond any other side there is nothing, and the last
+// cell stands for it.
+std::ptrdiff_t into_range(std::ptrdiff_t cell, std::ptrdiff_t count, bool periodic) {
+    return periodic ? (cell % count + count) % count : std::clamp(cell, std::ptrdiff_t{0}, count - 1);
+}
+
+} // namespace
+
+void DisplacementWatch::Box::include(const Box& other) {
+    low_x = std::min(low_x, other.low_x);
+    high_x = std::max(high_x, other.high_x);
+    low_y = std::min(low_y, other.low_y);
+    high_y = std::max(high_y, other.high_y);
+}
+
+double DisplacementWatch::Box::squared_diagonal_with(const Box& other) const {
+    Box both = *this;
+    both.include(other);
+    const double width = std::max(0.0, both.high_x - both.low_x);
+    const double height = std::max(0.0, both.high_y - both.low_y);
+    return width * width + height * height;
+}
+
+std::uint32_t DisplacementWatch::cell_of(double x, double y) const {
+    const auto column = static_cast<std::ptrdiff_t>(std::floor((x - lower_.x()) * inverse_size_.x()));
+    const auto row = static_cast<std::ptrdiff_t>(std::floor((y - lower_.y()) * inverse_size_.y()));
+    return static_cast<std::uint32_t>(into_range(row, rows_, periodic_y_) * columns_ +
+                                      into_range(column, columns_, periodic_x_));
+}
+
+void DisplacementWatch::start(const Particles& particles, std::span<const double> x,
+                              std::span<const double> y, const Domain& domain, double reach) {
+    start_x_ = x;
+    start_y_ = y;
+    start_time_ = particles.time;
+    periodic_x_ = domain.periodic[0];
+    periodic_y_ = domain.periodic[1];
+    lower_ = domain.lower;
+    const Vector size = domain.size();
+    columns_ = cell_count(size.x(), 2 * reach); // wide, so that runs are long
+    rows_ = cell_count(size.y(), reach);
+    inverse_size_ = {static_cast<double>(columns_) / size.x(), static_cast<double>(rows_) / size.y()};
+    runs_.clear();
+    const auto fluid = static_cast<std::uint32_t>(particles.fluid.size());
+    for (std::uint32_t i = 0; i < fluid; ++i) {
+        const std::uint32_t cell = cell_of(x[i], y[i]);
+        if (runs_.empty() || runs_.back().cell != cell) {
+            runs_.push_back({i, i, cell});
+        }
+        runs_.back().last = i + 1;
+    }
+    wall_cells_.clear();
+    const DummyParticles& dummies = particles.dummies;
+    for (std::size_t d = 0; d < dummies.size(); ++d) {
+        const double to_wall_x = dummies.depth[d] * dummies.normal_x[d];
+        const double to_wall_y = dummies.depth[d] * dummies.normal_y[d];
+        wall_cells_.push_back({cell_of(x[fluid + d], y[fluid + d]), dummies.wall[d]});
+        wall_cells_.push_back({cell_of(x[fluid + d] + to_wall_x, y[fluid + d] + to_wall_y), dummies.wall[d]});
+    }
+    std::sort(wall_cells_.begin(), wall_cells_.end());
+    wall_cells_.erase(std::unique(wall_cells_.begin(), wall_cells_.end()), wall_cells_.end());
+}
+
+DisplacementWatch::Box DisplacementWatch::displacements(const FluidParticles& fluid, const Run& run) const {
+    Box box{infinity, -infinity, infinity, -infinity};
+    for (std::uint32_t i = run.first; i < run.last; ++i) {
+        const double x = fluid.x[i] - start_x_[i];
+        const double y = fluid.y[i] - start_y_[i];
+        box.low_x = x < box.low_x ? x : box.low_x;
+        box.high_x = x > box.high_x ? x : box.high_x;
+        box.low_y = y < box.low_y ? y : box.low_y;
+        box.high_y = y > box.high_y ? y : box.high_y;
+    }
+    return box;
+}
+
+double DisplacementWatch::largest(const Particles& particles) const {
+    std::vector<Box> of_runs(runs_.size());
+    std::vector<Box> cells(static_cast<std::size_t>(columns_ * rows_),
+                           Box{infinity, -infinity, infinity, -infinity});
+    const auto run_count = static_cast<std::ptrdiff_t>(runs_.size());
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t k = 0; k < run_count; ++k) {
+        const auto run = static_cast<std::size_t>(k);
+        of_runs[run] = displacements(particles.fluid, runs_[run]);
+    }
+    for (std::size_t run = 0; run < runs_.size(); ++run) {
+        cells[runs_[run].cell].include(of_runs[run]);
+    }
+    for (const WallCell& of : wall_cells_) {
+        const Vector moved =
+            (particles.time - start_time_) * particles.dummies.wall_drift[static_cast<std::size_t>(of.wall)];
+        cells[of.cell].include({moved.x(), moved.x(), moved.y(), moved.y()});
+    }
+    double largest = 0;
+    for (std::ptrdiff_t row = 0; row < rows_; ++row) {
+        for (std::ptrdiff_t column = 0; column < columns_; ++column) {
+            largest = std::max(largest, largest_squared_beside(cells, column, row));
+        }
+    }
+    return std::sqrt(largest);
+}
+
+// Half of the neighbouring cells: the other half look at this one.
+double DisplacementWatch::largest_squared_beside(std::span<const Box> cells, std::ptrdiff_t column,
+                                                 std::ptrdiff_t row) const {
+    const auto at = [&](std::ptrdiff_t c, std::ptrdiff_t r) -> const Box& {
+        return cells[static_cast<std::size_t>(into_range(r, rows_, periodic_y_) * columns_ +
+                                              into_range(c, columns_, periodic_x_))];
+    };
+    const Box& here = at(column, row);
+    return std::max({here.squared_diagonal_with(at(column + 1, row)),
+                     here.squared_diagonal_with(at(column - 1, row + 1)),
+                     here.squared_diagonal_with(at(column, row + 1)),
+                     here.squared_diagonal_with(at(column + 1, row + 1))});
+}
+
+} // namespace slurry

@@ -1,0 +1,82 @@
+#include "solver/loop/neighbourhood.hpp"
+
+#include "solver/particles/run_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace slurry {
+
+namespace {
+
+// Extra reach of the neighbour lists, in particle spacings: a longer skin means fewer rebuilds and longer
+// lists.
+constexpr double skin_ratio = 0.25;
+
+} // namespace
+
+Neighbourhood::Neighbourhood(const Scene& scene, double support, double wall_support, int width,
+                             std::size_t row_bytes)
+    : domain_(scene.domain), walls_(!scene.walls.empty()),
+      wall_points_(scene.numerics.wall_extrapolation == WallExtrapolation::fit),
+      spacing_(scene.numerics.particle_spacing), skin_(skin_ratio * spacing_),
+      support_(support * scene.numerics.smoothing_length()),
+      wall_support_(wall_support * scene.numerics.smoothing_length()), fluid_list_(width, row_bytes),
+      dummy_list_(width, row_bytes) {}
+
+void Neighbourhood::refresh(Particles& particles) {
+    if (rebuilds_ > 0) {
+        const double displacement = watch_.largest(particles);
+        if (displacement < skin_) {
+            return;
+        }
+        refuse_flight(particles, displacement);
+    }
+    const double reach = std::max(support_, wall_support_) + skin_;
+    // The wall point of a dummy beside a periodic side may lie beyond it, by as much as the dummy is deep.
+    const auto& depths = particles.dummies.depth;
+    const double deepest =
+        wall_points_ && !depths.empty() ? *std::max_element(depths.begin(), depths.end()) : 0;
+    periodic_.rebuild(particles, domain_, reach, deepest);
+    watch_.start(particles, periodic_.x(), periodic_.y(), domain_, reach);
+    const CellGrid all(periodic_.x(), periodic_.y(), periodic_.all_rows(), support_ + skin_);
+    fluid_list_.build(periodic_.x(), periodic_.y(), all, 0, periodic_.fluid_count(), periodic_.padding(),
+                      support_ + skin_);
+    if (walls_) {
+        build_dummy_list(particles.dummies);
+    }
+    ++rebuilds_;
+}
+
+// A fit asks for the fluid around the wall point of a dummy, a mean for that around the dummy.
+void Neighbourhood::build_dummy_list(const DummyParticles& dummies) {
+    std::vector<double> x(periodic_.x().begin(), periodic_.x().end());
+    std::vector<double> y(periodic_.y().begin(), periodic_.y().end());
+    for (std::size_t d = 0; wall_points_ && d < dummies.size(); ++d) {
+        x[periodic_.fluid_count() + d] += dummies.depth[d] * dummies.normal_x[d];
+        y[periodic_.fluid_count() + d] += dummies.depth[d] * dummies.normal_y[d];
+    }
+    const double reach = wall_support_ + skin_;
+    const CellGrid fluid(x, y, periodic_.fluid_rows(), reach);
+    dummy_list_.build(x, y, fluid, periodic_.fluid_count(), periodic_.particle_count(), periodic_.padding(),
+                      reach);
+}
+
+// Lists are looked at twice a step: whoever has left its neighbours behind since then is not simulated any
+// more.
+void Neighbourhood::refuse_flight(const Particles& particles, double displacement) const {
+    if (displacement > 5 * spacing_) {
+        throw RunError(fmt::format("time {:.6g} s: {}; reduce numerics.acoustic_cfl, or raise "
+                                   "numerics.sound_speed to 10 times the top speed",
+                                   particles.time, periodic_.farthest_moved(particles)));
+    }
+}
+
+ListStatistics Neighbourhood::statistics(const Particles& /*particles*/) const {
+    ListStatistics statistics;
+    statistics.rebuilds = rebuilds_;
+    return statistics;
+}
+
+} // namespace slurry

@@ -1,0 +1,219 @@
+#pragma once
+// The passes of a time step over pairs of particles. Which terms are in a pass is a compile-time composition;
+// the branches here choose among compositions once per pass.
+#include "solver/loop/neighbourhood.hpp"
+#include "solver/loop/pass_rows.hpp"
+#include "solver/loop/sweep.hpp"
+#include "solver/terms/advection_tensor.hpp"
+#include "solver/terms/background_pressure.hpp"
+#include "solver/terms/continuity.hpp"
+#include "solver/terms/density_diffusion.hpp"
+#include "solver/terms/gradient_correction.hpp"
+#include "solver/terms/number_density.hpp"
+#include "solver/terms/plain_pressure_force.hpp"
+#include "solver/terms/pressure_force.hpp"
+#include "solver/terms/selection.hpp"
+#include "solver/terms/viscous_force.hpp"
+#include "solver/terms/wall_extrapolation.hpp"
+#include "solver/terms/wall_fit.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace slurry {
+
+// Writes the lanes that belong to particles, in SI units.
+template <class P> void store_lanes(std::vector<double>& to, std::size_t first, const P& from, double unit) {
+    if constexpr (std::is_arithmetic_v<P>) {
+        to[first] = unit * from;
+    } else {
+        constexpr std::size_t lanes = sizeof(P) / sizeof(from[0]);
+        if (first + lanes <= to.size()) {
+            for (std::size_t lane = 0; lane < lanes; ++lane) {
+                to[first + lane] = unit * static_cast<double>(from[lane]);
+            }
+            return;
+        }
+        for (std::size_t lane = 0; first + lane < to.size(); ++lane) {
+            to[first + lane] = unit * static_cast<double>(from[lane]);
+        }
+    }
+}
+
+template <class Kernel, class Real, int W> class PairInteractions final : public Interactions {
+  public:
+    explicit PairInteractions(const Scene& scene)
+        : fluid_(scene.fluid), numerics_(scene.numerics), terms_(select_terms(scene)), units_(scene),
+          neighbourhood_(scene, Kernel::support, wall_support(scene), W, sizeof(Row<Real>)),
+          rows_(scene, neighbourhood_.periodic()) {}
+
+    void refresh_neighbours(Particles& particles) override { neighbourhood_.refresh(particles); }
+
+    void compute_density_rate(Particles& particles) override {
+        rows_.fill_rate(particles);
+        if (terms_.gradient_correction) {
+            rate_with<CorrectedContinuity>(particles.fluid);
+        } else {
+            rate_with<Continuity>(particles.fluid);
+        }
+    }
+
+    void compute_volumes(Particles& particles) override {
+        FluidParticles& fluid = particles.fluid;
+        if (numerics_.particle_volume == ParticleVolume::mass_over_density) {
+            std::transform(fluid.density.begin(), fluid.density.end(), fluid.volume.begin(),
+                           [&](double density) { return fluid.mass / density; });
+            return;
+        }
+        rows_.fill_volume(particles, numerics_.particle_spacing);
+        const VolumeCoefficients<Real> coefficients{make_pair<Kernel>(Real{0}, Real{0}).kernel};
+        sweep<Real, W, Kernel, VolumeView, Volume>(
+            Composition<NumberDensity>{}, neighbourhood_.of_fluid(), rows_.rows(), coefficients,
+            [&](std::size_t first, const Volume<P>& result) {
+                store_lanes(fluid.volume, first, result.volume, units_.volume());
+            });
+    }
+
+    void extrapolate_to_walls(Particles& particles) override {
+        if (!terms_.walls) {
+            return;
+        }
+        if (numerics_.wall_extrapolation == WallExtrapolation::fit) {
+            rows_.fill_walls(particles);
+            sweep_walls<WallView>(Composition<VelocityFit, PressureFit>{}, particles);
+            return;
+        }
+        rows_.fill_forces(particles);
+        sweep_walls<ForceView>(Composition<VelocityExtrapolation, PressureExtrapolation>{}, particles);
+        DummyParticles& dummies = particles.dummies;
+        for (std::size_t d = 0; d < dummies.size(); ++d) { // Eq. 2.16
+            const Vector& wall_velocity = dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])];
+            dummies.velocity_x[d] = 2 * wall_velocity.x() - dummies.velocity_x[d];
+            dummies.velocity_y[d] = 2 * wall_velocity.y() - dummies.velocity_y[d];
+        }
+    }
+
+    void compute_forces(Particles& particles) override {
+        rows_.fill_forces(particles);
+        if (terms_.density_weighted_pressure) {
+            forces_from<PressureForce>(particles.fluid);
+        } else {
+            forces_from<PlainPressureForce>(particles.fluid);
+        }
+    }
+
+    [[nodiscard]] ListStatistics list_statistics(const Particles& particles) const override {
+        ListStatistics statistics = neighbourhood_.statistics(particles);
+        statistics.bytes += rows_.bytes();
+        return statistics;
+    }
+
+  private:
+    using P = Pack<Real, W>;
+
+    static double wall_support(const Scene& scene) {
+        return scene.numerics.wall_extrapolation == WallExtrapolation::fit ? wall_fit_support
+                                                                           : Kernel::support;
+    }
+
+    template <template <class> class View, class Terms> void sweep_walls(Terms terms, Particles& particles) {
+        DummyParticles& dummies = particles.dummies;
+        const Vector force = fluid_.body_force / units_.acceleration();
+        const ExtrapolationCoefficients<Real> coefficients{
+            static_cast<Real>(particles.fluid.mass / units_.mass()), static_cast<Real>(force.x()),
+            static_cast<Real>(force.y())};
+        sweep<Real, W, Kernel, View, Extrapolation>(
+            terms, neighbourhood_.of_dummies(), rows_.rows(), coefficients,
+            [&](std::size_t first, const Extrapolation<P>& result) {
+                store_lanes(dummies.velocity_x, first, result.velocity_x, units_.velocity);
+                store_lanes(dummies.velocity_y, first, result.velocity_y, units_.velocity);
+                store_lanes(dummies.pressure, first, result.pressure, units_.pressure());
+            });
+    }
+
+    template <class Divergence> void rate_with(FluidParticles& fluid) {
+        if (terms_.hydrostatic_diffusion) {
+            sweep_rate(Composition<Divergence, DensityDiffusion, HydrostaticDiffusion>{}, fluid);
+        } else if (terms_.density_diffusion) {
+            sweep_rate(Composition<Divergence, DensityDiffusion>{}, fluid);
+        } else {
+            sweep_rate(Composition<Divergence>{}, fluid);
+        }
+    }
+
+    template <class Terms> void sweep_rate(Terms terms, FluidParticles& fluid) {
+        const Vector slope = fluid_.body_force / units_.acceleration();
+        const RateCoefficients<Real> coefficients{static_cast<Real>(numerics_.density_diffusion),
+                                                  static_cast<Real>(slope.x()), static_cast<Real>(slope.y())};
+        sweep<Real, W, Kernel, RateView, Rate>(terms, neighbourhood_.of_fluid(), rows_.rows(), coefficients,
+                                               [&](std::size_t first, const Rate<P>& result) {
+                                                   store_lanes(fluid.density_rate, first, result.density_rate,
+                                                               units_.density_rate());
+                                               });
+    }
+
+    template <class Pressure> void forces_from(FluidParticles& fluid) {
+        if (terms_.viscosity) {
+            forces_with<Pressure, ViscousForce>(fluid);
+        } else {
+            forces_with<Pressure>(fluid);
+        }
+    }
+
+    template <class... Forces> void forces_with(FluidParticles& fluid) {
+        if (terms_.advection_tensor) {
+            sweep_forces(Composition<Forces..., BackgroundPressure, AdvectionTensor>{}, fluid);
+        } else if (terms_.transport_velocity) {
+            sweep_forces(Composition<Forces..., BackgroundPressure>{}, fluid);
+        } else {
+            sweep_forces(Composition<Forces...>{}, fluid);
+        }
+    }
+
+    template <class Terms> void sweep_forces(Terms terms, FluidParticles& fluid) {
+        const ForceCoefficients<Real> coefficients{
+            static_cast<Real>(units_.mass() / fluid.mass),
+            static_cast<Real>(fluid_.dynamic_viscosity / units_.dynamic_viscosity()),
+            static_cast<Real>(numerics_.background_pressure_ratio)};
+        const double unit = units_.acceleration();
+        sweep<Real, W, Kernel, ForceView, Acceleration>(
+            terms, neighbourhood_.of_fluid(), rows_.rows(), coefficients,
+            [&](std::size_t first, const Acceleration<P>& result) {
+                store_lanes(fluid.acceleration_x, first, result.x, unit);
+                store_lanes(fluid.acceleration_y, first, result.y, unit);
+                store_lanes(fluid.background_x, first, result.background_x, unit);
+                store_lanes(fluid.background_y, first, result.background_y, unit);
+            });
+    }
+
+    Fluid fluid_;
+    Numerics numerics_;
+    TermSelection terms_;
+    Units units_;
+    Neighbourhood neighbourhood_;
+    PassRows<Real> rows_;
+};
+
+// As wide as the machine's vectors, or with plain numbers.
+template <class Kernel>
+std::unique_ptr<Interactions> make_pair_interactions(const Scene& scene, LoopWidth width) {
+    if (width == LoopWidth::plain) {
+        return std::make_unique<PairInteractions<Kernel, double, 1>>(scene);
+    }
+    if (scene.numerics.pair_arithmetic == PairArithmetic::double_precision) {
+        return std::make_unique<PairInteractions<Kernel, double, native_lanes<double>>>(scene);
+    }
+    return std::make_unique<PairInteractions<Kernel, float, native_lanes<float>>>(scene);
+}
+
+// Each in a file of its own, solver/loop/with_<kernel>.cpp: they are long to compile.
+extern template std::unique_ptr<Interactions> make_pair_interactions<class QuinticSpline>(const Scene&,
+                                                                                          LoopWidth);
+extern template std::unique_ptr<Interactions> make_pair_interactions<class WendlandC2>(const Scene&,
+                                                                                       LoopWidth);
+extern template std::unique_ptr<Interactions> make_pair_interactions<class WendlandC4>(const Scene&,
+                                                                                       LoopWidth);
+extern template std::unique_ptr<Interactions> make_pair_interactions<class CompactGaussian>(const Scene&,
+                                                                                            LoopWidth);
+
+} // namespace slurry

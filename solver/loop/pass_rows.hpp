@@ -1,0 +1,151 @@
+#pragma once
+// The rows of each pass, made from the particles' state: fluid, dummies, their periodic copies, and the
+// padding.
+#include "solver/loop/periodic_rows.hpp"
+#include "solver/loop/row.hpp"
+#include "solver/loop/units.hpp"
+
+#include <span>
+#include <vector>
+
+namespace slurry {
+
+// The fields' names are those of the views in solver/terms/views.hpp.
+template <class Real> class PassRows {
+  public:
+    PassRows(const Scene& scene, const PeriodicRows& periodic)
+        : units_(scene), wall_continuity_(scene.numerics.wall_continuity), periodic_(periodic) {}
+
+    [[nodiscard]] std::span<const Row<Real>> rows() const { return rows_; }
+    [[nodiscard]] std::size_t bytes() const { return rows_.capacity() * sizeof(Row<Real>); }
+
+    // For RateView.
+    void fill_rate(const Particles& particles) {
+        const FluidParticles& fluid = particles.fluid;
+        const DummyParticles& dummies = particles.dummies;
+        const double mass = fluid.mass / units_.mass();
+        const double per_density = 1 / units_.density;
+        fill(
+            particles,
+            [&](std::size_t i) {
+                const double density = fluid.density[i] * per_density;
+                const double volume = mass / density;
+                return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
+                           velocity(fluid.velocity_y[i]), volume, density, volume, 0);
+            },
+            [&](std::size_t d) {
+                const Vector moving = continuity_velocity(dummies, d);
+                return row(x(dummies.x[d]), y(dummies.y[d]), velocity(moving.x()), velocity(moving.y()),
+                           volume(dummies.volume[d]), 1, 0, 0);
+            });
+    }
+
+    // For VolumeView.
+    void fill_volume(const Particles& particles, double particle_spacing) {
+        const FluidParticles& fluid = particles.fluid;
+        const DummyParticles& dummies = particles.dummies;
+        const double cell = particle_spacing * particle_spacing;
+        fill(
+            particles, [&](std::size_t i) { return row(x(fluid.x[i]), y(fluid.y[i]), 1, 0, 0, 0, 0, 0); },
+            [&](std::size_t d) {
+                return row(x(dummies.x[d]), y(dummies.y[d]), dummies.volume[d] / cell, 0, 0, 0, 0, 0);
+            });
+    }
+
+    // For ForceView.
+    void fill_forces(const Particles& particles) {
+        const FluidParticles& fluid = particles.fluid;
+        const DummyParticles& dummies = particles.dummies;
+        const double per_momentum = 1 / (units_.density * units_.velocity);
+        fill(
+            particles,
+            [&](std::size_t i) {
+                const double shifted = fluid.density[i] * per_momentum;
+                return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
+                           velocity(fluid.velocity_y[i]), shifted * fluid.shift_x[i],
+                           shifted * fluid.shift_y[i], volume(fluid.volume[i]), pressure(fluid.pressure[i]));
+            },
+            [&](std::size_t d) {
+                return row(x(dummies.x[d]), y(dummies.y[d]), velocity(dummies.velocity_x[d]),
+                           velocity(dummies.velocity_y[d]), 0, 0, volume(dummies.volume[d]),
+                           pressure(dummies.pressure[d]));
+            });
+    }
+
+    // For WallView: a dummy's row lies at its wall point.
+    void fill_walls(const Particles& particles) {
+        const FluidParticles& fluid = particles.fluid;
+        const DummyParticles& dummies = particles.dummies;
+        fill(
+            particles,
+            [&](std::size_t i) {
+                return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
+                           velocity(fluid.velocity_y[i]), pressure(fluid.pressure[i]), 0, 0, 0);
+            },
+            [&](std::size_t d) {
+                const Vector& wall = dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])];
+                return row(x(dummies.x[d] + dummies.depth[d] * dummies.normal_x[d]),
+                           y(dummies.y[d] + dummies.depth[d] * dummies.normal_y[d]), dummies.normal_x[d],
+                           dummies.normal_y[d], velocity(wall.x()), velocity(wall.y()),
+                           dummies.depth[d] / units_.length, 0.5 * dummies.curvature[d] * units_.length);
+            });
+    }
+
+  private:
+    [[nodiscard]] double x(double position) const { return (position - units_.origin.x()) * per_length_; }
+    [[nodiscard]] double y(double position) const { return (position - units_.origin.y()) * per_length_; }
+    [[nodiscard]] double velocity(double value) const { return value * per_velocity_; }
+    [[nodiscard]] double volume(double value) const { return value * per_volume_; }
+    [[nodiscard]] double pressure(double value) const { return value * per_pressure_; }
+
+    static Row<Real> row(std::convertible_to<double> auto... values) { return {{Real(values)...}}; }
+
+    [[nodiscard]] Vector continuity_velocity(const DummyParticles& dummies, std::size_t d) const {
+        return wall_continuity_ == WallContinuity::wall_velocity
+                   ? dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])]
+                   : Vector(dummies.velocity_x[d], dummies.velocity_y[d]);
+    }
+
+    template <class FluidRow, class DummyRow>
+    void fill(const Particles& particles, FluidRow&& fluid_row, DummyRow&& dummy_row) {
+        rows_.resize(periodic_.row_count());
+        const auto fluid_count = static_cast<std::ptrdiff_t>(particles.fluid.size());
+        const auto dummy_count = static_cast<std::ptrdiff_t>(particles.dummies.size());
+        const auto copies = periodic_.copies();
+        const auto copy_count = static_cast<std::ptrdiff_t>(copies.size());
+        Row<Real>* const to_dummies = rows_.data() + fluid_count;
+        Row<Real>* const to_copies = to_dummies + dummy_count;
+#pragma omp parallel
+        {
+#pragma omp for schedule(static) nowait
+            for (std::ptrdiff_t i = 0; i < fluid_count; ++i) {
+                rows_[static_cast<std::size_t>(i)] = fluid_row(static_cast<std::size_t>(i));
+            }
+#pragma omp for schedule(static)
+            for (std::ptrdiff_t d = 0; d < dummy_count; ++d) {
+                to_dummies[d] = dummy_row(static_cast<std::size_t>(d));
+            }
+#pragma omp for schedule(static)
+            for (std::ptrdiff_t k = 0; k < copy_count; ++k) {
+                const PeriodicRows::Copy& of = copies[static_cast<std::size_t>(k)];
+                to_copies[k] = rows_[of.source];
+                to_copies[k].field[0] += static_cast<Real>(of.shift.x() * per_length_);
+                to_copies[k].field[1] += static_cast<Real>(of.shift.y() * per_length_);
+            }
+        }
+        // Beyond every kernel; the ones keep quotients of volumes finite.
+        constexpr double far = 1e6;
+        rows_.back() = row(far, far, 0, 0, 1, 1, 1, 0);
+    }
+
+    Units units_;
+    WallContinuity wall_continuity_;
+    const PeriodicRows& periodic_;
+    double per_length_ = 1 / units_.length;
+    double per_velocity_ = 1 / units_.velocity;
+    double per_volume_ = 1 / units_.volume();
+    double per_pressure_ = 1 / units_.pressure();
+    std::vector<Row<Real>> rows_;
+};
+
+} // namespace slurry
