@@ -53,11 +53,13 @@ def error_against_time(results: Mapping[str, Any], case: str, variant: str) -> F
 
 def logarithmic(axis: Axes) -> None:
     """Both axes logarithmic with labels that do not overlap, however small the range."""
+    ranges = (axis.dataLim.intervalx, axis.dataLim.intervaly)
+    pads = [max(1.3, (4 * low / high) ** 0.5) for low, high in ranges]  # a factor of four at least
+    limits = [(low / pad, high * pad) for (low, high), pad in zip(ranges, pads, strict=True)]
+    axis.set(xlim=limits[0], ylim=limits[1])
     axis.set(xscale="log", yscale="log")
-    for one, low, high in ((axis.xaxis, *axis.get_xlim()), (axis.yaxis, *axis.get_ylim())):
-        pad = max(1.0, (4 * low / high) ** 0.5)  # a factor of four at least
-        one.set_view_interval(low / pad, high * pad, ignore=True)
-        few = high / low < 30
+    for one, (low, high) in zip((axis.xaxis, axis.yaxis), limits, strict=True):
+        few = high / low < 50
         one.set_major_locator(LogLocator(subs=(1, 2, 5) if few else (1,)))
         one.set_major_formatter(FormatStrFormatter("%g") if few else LogFormatterMathtext())
         one.set_minor_formatter(NullFormatter())

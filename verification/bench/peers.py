@@ -2,9 +2,9 @@
 
 `python -m verification.bench.peers` writes peers.json into the output folder, and the report there again if
 there is one. The other code is PySPH (Debian's python3-pysph): its examples run unchanged on one thread, with
-this machine's instruction set (CFLAGS), after a warm-up that generates and compiles their code. The time is the
-one that PySPH prints for its solve. Errors are by the comparer of `make verify`, and, apart, by the example's
-own measure. Exit status: 1 when a run failed, 2 when it cannot start.
+this machine's instruction set (CFLAGS), after a warm-up that generates and compiles their code. The time is
+the one that PySPH prints for its solve. Errors are by the comparer of `make verify`, and, apart, by the
+example's own measure. Exit status: 1 when a run failed, 2 when it cannot start.
 """
 
 from __future__ import annotations
@@ -95,11 +95,10 @@ def peer_run(entry: Mapping[str, Any], warm_up: Sequence[str], reference: Refere
         raise DataError("it did not complete")
     check = Flow.of(entry).check
     return {
-        "particles": len(velocity),
+        "fluid_particles": len(velocity),
         "steps": steps,
         "end_time_s": float(final["t"]),
         "wall_s": seconds,
-        "particle_steps_per_s": len(velocity) * steps / seconds,
         "errors": {check.quantity: measure(check, velocity, exact)},
         "own_errors": {name: finite(float(own[name][-1])) for name in ("l1", "linf", "p_l1") if name in own},
     }
@@ -109,7 +108,14 @@ def peer_entry(entry: Mapping[str, Any], session: Session, folder: Path) -> dict
     """A row of peers.json; a run that failed keeps its reason and is a failure of the session."""
     row: dict[str, Any] = {"code": "PySPH", "arithmetic": "double", "threads": 1}
     row |= {key: entry[key] for key in ("case", "scheme", "arguments")} | {"set": entry.get("set", {})}
-    row |= {"particles": None, "steps": 0, "wall_s": None, "errors": {}, "own_errors": {}, "failure": ""}
+    row |= {
+        "fluid_particles": None,
+        "steps": 0,
+        "wall_s": None,
+        "errors": {},
+        "own_errors": {},
+        "failure": "",
+    }
     flow = Flow.of(entry)
     try:
         reference = session.references.of(flow.case, flow.variant)

@@ -89,7 +89,7 @@ def errors(point: Mapping[str, Any]) -> str:
 
 
 def point_table(points: list[dict[str, Any]]) -> Table:
-    head = ("case", "scheme", "arithmetic", "threads", "spacing (m)", "particles", "steps", "wall (s)")
+    head = ("case", "scheme", "arithmetic", "threads", "spacing (m)", "fluid particles", "steps", "wall (s)")
     rows = []
     for p in points:
         case = p["case"] if p["case"] == p["variant"] else f"{p['case']}, {p['variant']}"
@@ -99,7 +99,7 @@ def point_table(points: list[dict[str, Any]]) -> Table:
             p["arithmetic"],
             str(p["threads"]),
             f"{p['spacing_m']:g}",
-            str(p["particles"]),
+            str(p["fluid_particles"]),
         )
         speed = (str(p["steps"]), number(p["wall_s"]), number(p["particle_steps_per_s"]))
         rows.append(("failed" if p["failure"] else "", (*cells, *speed, errors(p))))
@@ -152,11 +152,28 @@ def scaling_table(rows: list[dict[str, Any]]) -> Table:
 
 
 def peer_table(peers: Mapping[str, Any]) -> Table:
-    head = ("code", "case", "scheme", "particles", "steps", "wall (s)", "errors", "its own errors")
+    head = (
+        "code",
+        "case",
+        "scheme",
+        "arithmetic",
+        "fluid particles",
+        "steps",
+        "wall (s)",
+        "errors",
+        "its own errors",
+    )
     rows = []
     for run in [*peers["runs"], *peers["ours"]]:
         own = ", ".join(f"{name} {percent(value)}" for name, value in run["own_errors"].items())
-        cells = (run["code"], run["case"], run["scheme"], str(run["particles"]), str(run["steps"]))
+        cells = (
+            run["code"],
+            run["case"],
+            run["scheme"],
+            run["arithmetic"],
+            str(run["fluid_particles"]),
+            str(run["steps"]),
+        )
         rows.append(("failed" if run["failure"] else "", (*cells, number(run["wall_s"]), errors(run), own)))
     return Table(head, rows)
 

@@ -110,8 +110,9 @@ def _decay(row: Mapping[str, Any]) -> dict[str, Measure]:
 
 
 def best_peer(peers: Mapping[str, Any] | None, case: str) -> Mapping[str, Any] | None:
-    """The peer's run of the case with the lowest error by its own measure."""
-    runs = [] if peers is None else [r for r in peers["runs"] if r["case"] == case and not r["failure"]]
+    """The peer's run of the case as it is, not of another flow, with the lowest error by its own measure."""
+    everything = peers["runs"] if peers else []
+    runs = [run for run in everything if run["case"] == case and not run["set"] and not run["failure"]]
     runs = [run for run in runs if run["own_errors"].get("l1") is not None]
     return min(runs, key=lambda run: run["own_errors"]["l1"], default=None)
 
