@@ -46,6 +46,18 @@ def test_a_quick_bench_writes_every_section(solver, tmp_path, capsys):
     assert not list(tmp_path.glob(".*"))  # nothing of the runs is left
 
 
+def test_the_report_is_made_again_without_a_run(solver, tmp_path, capsys):
+    first = run(tmp_path, "--only", "speed_error")
+    (tmp_path / "report.html").unlink()
+    calls = solver.calls
+    assert run(tmp_path, "--report-only") == first
+    assert solver.calls == calls
+    assert (tmp_path / "report.html").exists()
+    (tmp_path / "speed_error.json").write_text("{")
+    assert bench.main(["--report-only", "--out", str(tmp_path)]) == 2
+    assert "bench: " in capsys.readouterr().err
+
+
 def test_what_the_solver_lacks_is_left_out_with_a_note(solver, tmp_path):
     solver.manual = "\n".join(
         line for line in MANUAL.splitlines() if "pair_arith" not in line and "kernel" not in line
@@ -137,14 +149,23 @@ def test_manual_is_read():
 def test_ablation_spells_out_kernels_and_compares(solver, tmp_path):
     solver.broken = "background_pressure_ratio"
     status, results = run(tmp_path, "--only", "ablation")
-    assert status == 1
+    assert status == 0  # that the solver stops without it is an answer
+    assert any("background_pressure_ratio" in note for note in results["notes"])
     rows = {row["name"]: row for row in results["ablation"]}
     assert {"default scheme", "kernel wendland_c2", "kernel gaussian", "double arithmetic"} <= rows.keys()
     assert "kernel quintic" not in rows
     assert rows["double arithmetic"]["arithmetic"] == "double"
     assert rows["kernel gaussian"]["relative_step_time"] == 1
     assert rows["kernel gaussian"]["better"] == "equal"
-    assert rows["without transport velocity"]["better"] == "default: this one failed"
+    assert rows["without transport velocity"]["better"] == "default: this one does not run"
+
+
+def test_the_default_scheme_of_the_ablation_must_run(solver, tmp_path):
+    solver.broken = "--threads"
+    status, results = run(tmp_path, "--only", "ablation")
+    assert status == 1
+    assert len(results["failures"]) == 1
+    assert "default" in results["failures"][0]
 
 
 @pytest.mark.parametrize(

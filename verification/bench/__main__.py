@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import argparse
 import datetime
+import json
 import os
 import sys
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 from reference import load as load_reference
@@ -34,24 +36,31 @@ SECTIONS: dict[str, Callable[[Session], Any]] = {
 def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     options = parser("python -m verification.bench", __doc__)
     options.add_argument("--only", action="append", choices=SECTIONS, help="only this section (repeatable)")
+    options.add_argument("--report-only", action="store_true", help="the report again, from the last results")
     return options.parse_args(argv)
 
 
 def main(argv: Sequence[str] | None = None, load: LoadReference = load_reference) -> int:
     options = parse(argv)
+    stored = options.out / report.RESULTS
     try:
+        if options.report_only:
+            return finish(options.out, json.loads(stored.read_text()))
         session = Session(options.solver, options.out, load_plan(options.quick), References(load))
-        (options.out / report.RESULTS).unlink(missing_ok=True)  # an interrupted bench leaves none
-    except (CaseError, OSError) as error:
+        stored.unlink(missing_ok=True)  # an interrupted bench leaves none
+    except (CaseError, OSError, json.JSONDecodeError) as error:
         print(f"bench: {error}", file=sys.stderr)
         return 2
-    results = measure(session, options)
-    report.write(options.out, results)
+    return finish(options.out, measure(session, options))
+
+
+def finish(out: Path, results: dict[str, Any]) -> int:
+    report.write(out, results)
     report.print_targets(results)
-    for failure in session.failures:
+    for failure in results["failures"]:
         print(f"FAILED: {failure}")
-    print(options.out / "report.html")
-    return 1 if session.failures else 0
+    print(out / "report.html")
+    return 1 if results["failures"] else 0
 
 
 def measure(session: Session, options: argparse.Namespace) -> dict[str, Any]:

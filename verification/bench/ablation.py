@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from verification.bench.session import Session, default_name, finite
+from verification.bench.session import ARITHMETIC, Session, default_name, finite
 from verification.bench.speed_error import point
 
 
@@ -28,18 +28,17 @@ def variants(session: Session) -> list[dict[str, Any]]:
 
 
 def measure(session: Session) -> list[dict[str, Any]]:
-    """A row for each case and change, the scheme as it is first; one thread."""
+    """A row for each case and change, the scheme as it is first; one thread. A change with which the solver
+    stops (exit status 3) is an answer as well.
+    """
     jobs, names = [], []
     for case in session.plan["ablation"]["cases"]:
         changes = [v for v in variants(session) if case["case"] in v.get("cases", [case["case"]])]
         for change in [{"name": "default scheme", "set": {}}, *changes]:
             settings = dict(change["set"])
-            choices = (
-                {"arithmetic": settings.pop("numerics.pair_arithmetic")}
-                if len(settings) == 1 and ("numerics.pair_arithmetic" in settings)
-                else {}
-            )
-            jobs.append(session.job(**case, settings=settings, **choices))
+            choices = {"arithmetic": settings.pop(ARITHMETIC, session.arithmetic())}
+            choices |= {"settings": settings, "may_stop": bool(change["set"])}
+            jobs.append(session.job(**case, **choices))
             names.append(change["name"])
     rows = [
         {"name": name, **point(measured)}
@@ -67,7 +66,7 @@ def judge(row: Mapping[str, Any], base: Mapping[str, Any], equal_within: float) 
     if row is base:
         return {**ratios, "better": ""}
     if row["failure"] or not errors or not all(map(math.isfinite, [time, *errors.values()])):
-        return {**ratios, "better": "default: this one failed" if row["failure"] else "unknown"}
+        return {**ratios, "better": "default: this one does not run" if row["failure"] else "unknown"}
     return {**ratios, "better": _better(time, list(errors.values()), equal_within)}
 
 

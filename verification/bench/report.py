@@ -29,6 +29,7 @@ HEADING = "Speed and error"
 
 def write(out: Path, results: dict[str, Any]) -> None:
     """Adds peers and verdicts to the results (in place) and writes the JSON, the figures and the report."""
+    write_json(out / RESULTS, results)  # first of all: hours of runs are in it
     peers = out / PEERS
     results["peers"] = json.loads(peers.read_text()) if peers.exists() else None
     results["targets"] = verdicts(results, load_plan(results["quick"]))

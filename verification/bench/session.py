@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import math
 import os
 import re
@@ -40,6 +41,7 @@ class Job:
     arithmetic: str = "float"
     threads: int = 1
     settings: Mapping[str, Any] = field(default_factory=dict)
+    may_stop: bool = False  # a run that the solver stops is an answer (a note), not a failure of the bench
 
     @property
     def run(self) -> Run:
@@ -182,7 +184,7 @@ class Session:
         ends = {"output.end_time": steps * float(step[1]), "output.series_samples": 2}
         ends |= {"output.snapshot_times": [], "output.probe_samples": 1}
         variant = Variant(job.variant.name, {**job.variant.set, **ends})
-        return Job(job.case, variant, job.spacing, job.scheme, job.arithmetic, job.threads, job.settings)
+        return dataclasses.replace(job, variant=variant)
 
     def errors(self, outcome: Outcome) -> dict[str, float]:
         """The case's errors against its reference, as verify measures them; a missing one is a failure."""
@@ -220,7 +222,8 @@ class Session:
             if not outcome.failure and not outcome.attributes.get("wall_seconds", 0) > 0:
                 outcome.failure = "the result has no wall_seconds"
             if outcome.failure:
-                self.fail(f"{job.label}: {outcome.failure}")
+                stopped = job.may_stop and outcome.failure.startswith("exit status 3:")
+                (self.note if stopped else self.fail)(f"{job.label}: {outcome.failure}")
                 return Measured(job, outcome.failure)
             runs.append(outcome.attributes)
         middle = sorted(runs, key=lambda run: run["wall_seconds"])[(len(runs) - 1) // 2]
@@ -247,5 +250,6 @@ class Session:
         for job in jobs:
             progress.begin(job.label)
             measured.append(self.measure(job, read, memory))
-            progress.end(f"{job.label}: {measured[-1].wall:.2f} s", job.run.expected_work())
+            outcome = measured[-1].failure or f"{measured[-1].wall:.2f} s"
+            progress.end(f"{job.label}: {outcome}", job.run.expected_work())
         return measured
