@@ -121,6 +121,14 @@ def bench_outcome(wall):
     return Outcome()
 
 
+def test_a_section_that_breaks_does_not_lose_the_others(solver, tmp_path, monkeypatch):
+    monkeypatch.setitem(bench.SECTIONS, "speed_error", lambda session: {}["absent"])
+    status, results = run(tmp_path, "--only", "speed_error", "--only", "ablation")
+    assert status == 1
+    assert results["failures"] == ["speed_error: KeyError: 'absent'"]
+    assert results["ablation"]
+
+
 def test_an_interrupted_bench_leaves_no_results(solver, tmp_path, monkeypatch):
     (tmp_path / "speed_error.json").write_text("{}")
 

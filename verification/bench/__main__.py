@@ -80,8 +80,8 @@ def measure(session: Session, options: argparse.Namespace) -> dict[str, Any]:
             print(f"bench: {name}", file=sys.stderr, flush=True)
             try:
                 results[name] = section(session)
-            except CaseError as error:
-                session.fail(f"{name}: {error}")
+            except Exception as error:  # hours of the other sections are not lost for it
+                session.fail(f"{name}: {type(error).__name__}: {error}")
     results["references"] = session.references.facts()
     return results | {"notes": session.notes, "failures": session.failures}
 
