@@ -10,10 +10,10 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test reference verify report faults baseline lint format docs clean
+.PHONY: help setup configure build test reference verify report faults baseline bench bench-peers lint format docs clean
 
 help: ## List the targets
-	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 18
+	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
 
 setup: ## Install what is missing: Debian packages (packages.apt) and .venv (requirements.txt)
 	@scripts/setup
@@ -44,6 +44,13 @@ faults: build ## Plant each known fault and show that the named checks fail
 
 baseline: setup ## Accept the last results as verification/baseline.json, for review in a commit
 	@$(PYTHON) -m verification.baseline --accept
+
+bench: build ## Speed against error and the speed targets (build/bench); leave the machine alone meanwhile
+	@$(PYTHON) -m verification.bench
+
+bench-peers: build ## PySPH (installed when missing) on flows of ours beside our solver, into the report of bench
+	@scripts/setup python3-pysph
+	@$(PYTHON) -m verification.bench.peers
 
 lint: configure ## Check format, clang-tidy, cppcheck and ruff
 	@scripts/lint $(BUILD) $(JOBS)

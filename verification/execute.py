@@ -68,8 +68,10 @@ def plan(cases: Sequence[Case], options: argparse.Namespace) -> list[Run]:
     return runs
 
 
-def execute(run: Run, options: argparse.Namespace) -> Outcome:
-    """Runs the solver. A run that goes wrong gives an Outcome with the solver's message, not an exception."""
+def execute(run: Run, options: argparse.Namespace, prefix: Sequence[str] = ()) -> Outcome:
+    """Runs the solver, called through the command `prefix` if there is one. A run that goes wrong gives an
+    Outcome with the solver's message, not an exception.
+    """
     folder = run.folder(options.out)
     outcome = Outcome(run, Result(folder / "result.h5", run.case.scene(run.variant)["output"]["end_time"]))
     settings = run.settings() + options.solver_set
@@ -81,6 +83,7 @@ def execute(run: Run, options: argparse.Namespace) -> Outcome:
         shutil.rmtree(folder, ignore_errors=True)  # an earlier result must never pass for this one
         folder.mkdir(parents=True)
         command = [
+            *prefix,
             str(options.solver),
             *arguments,
             "--out",

@@ -49,8 +49,10 @@ class Picture:
 Block = str | Table | Picture  # a heading starts with "# ", anything else is a paragraph
 
 
-def to_markdown(title: str, content: Sequence[Block], folder: Path) -> str:
-    parts = [f"# Verification report\n\n**{title}**\n"]
+def to_markdown(
+    title: str, content: Sequence[Block], folder: Path, heading: str = "Verification report"
+) -> str:
+    parts = [f"# {heading}\n\n**{title}**\n"]
     for block in content:
         if isinstance(block, Table):
             parts.append(block.markdown())
@@ -61,7 +63,7 @@ def to_markdown(title: str, content: Sequence[Block], folder: Path) -> str:
     return "\n".join(parts)
 
 
-def to_html(title: str, passed: bool, content: Sequence[Block]) -> str:
+def to_html(title: str, passed: bool, content: Sequence[Block], heading: str = "Verification report") -> str:
     parts = []
     for block in content:
         if isinstance(block, Table):
@@ -75,6 +77,6 @@ def to_html(title: str, passed: bool, content: Sequence[Block]) -> str:
             parts.append(f"<h2>{html.escape(block[2:])}</h2>\n")
         else:
             parts.append(f"<p>{html.escape(block)}</p>\n")
-    head = "<!doctype html><html lang='en'><meta charset='utf-8'><title>Verification report</title>"
+    head = f"<!doctype html><html lang='en'><meta charset='utf-8'><title>{heading}</title>"
     banner = f"<p class='verdict {'passed' if passed else 'failed'}'>{html.escape(title)}</p>"
-    return f"{head}<style>{CSS}</style><h1>Verification report</h1>{banner}{''.join(parts)}</html>\n"
+    return f"{head}<style>{CSS}</style><h1>{heading}</h1>{banner}{''.join(parts)}</html>\n"
