@@ -36,7 +36,7 @@ struct CorrectedContinuity {
         const P plain = sums.gradient_xx + sums.gradient_yy;
         const P adjugate = sums.moment_yy * sums.gradient_xx + sums.moment_xx * sums.gradient_yy -
                            sums.moment_xy * (sums.gradient_xy + sums.gradient_yx);
-        const P compression = determinant > Real{0.1} ? adjugate / determinant : plain;
+        const P compression = determinant > Real(0.1) ? adjugate / determinant : plain;
         result.density_rate += i.density() * compression;
     }
 };
