@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test reference verify report faults baseline lint format docs clean
+.PHONY: help setup configure build test reference verify report faults baseline counts lint format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 18
@@ -44,6 +44,9 @@ faults: build ## Plant each known fault and show that the named checks fail
 
 baseline: setup ## Accept the last results as verification/baseline.json, for review in a commit
 	@$(PYTHON) -m verification.baseline --accept
+
+counts: setup ## Instructions of a step (valgrind) against verification/counts.json; the exit status is the verdict
+	@env -u MAKEFLAGS -u MFLAGS $(PYTHON) -m verification.counts --jobs $(JOBS)
 
 lint: configure ## Check format, clang-tidy, cppcheck and ruff
 	@scripts/lint $(BUILD) $(JOBS)
