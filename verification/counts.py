@@ -109,7 +109,8 @@ def made_with(folder: Path) -> str:
     if not found:
         raise CountError(f"{folder / 'CMakeCache.txt'} names no compiler")
     version = subprocess.run([found[1], "--version"], capture_output=True, text=True, check=True).stdout
-    return f"{version.splitlines()[0]}, {' '.join(platform.libc_ver())}"
+    compiler = re.sub(r"^[cg]\+\+\S*", "GCC", version.splitlines()[0])  # the same by any name
+    return f"{compiler}, {' '.join(platform.libc_ver())}"
 
 
 def count(solver: Path, scene: Scene, steps: int, out: Path) -> Run:
