@@ -1,6 +1,8 @@
-// The command line: `slurry run|check|info SCENE`, `slurry help scene`.
+// The command line: `slurry run|check|info SCENE`, `slurry help scene`, `slurry bench`.
+#include "solver/bench/bench.hpp"
 #include "solver/geometry/geometry_error.hpp"
 #include "solver/geometry/region.hpp"
+#include "solver/output/partial_file.hpp"
 #include "solver/output/result_file.hpp"
 #include "solver/scene/manual.hpp"
 #include "solver/scene/read_scene.hpp"
@@ -17,6 +19,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -35,6 +38,8 @@ struct Arguments {
     RunOptions run;
     std::string topic;
     bool markdown = false;
+    std::filesystem::path json;
+    bool quick = false;
 };
 
 void print(std::string_view text) {
@@ -69,6 +74,19 @@ void info(const Arguments& arguments) {
     print(describe_scene(scene_of(arguments)));
 }
 
+void bench(const Arguments& arguments) {
+    std::optional<PartialFile> file; // before the measurement: a file that cannot be written is known now
+    if (!arguments.json.empty())
+        file.emplace(arguments.json);
+    const BenchReport report = measure_machine(arguments.quick);
+    print(bench_text(report));
+    if (file) {
+        file->write(bench_json(report));
+        file->synchronise();
+        file->commit();
+    }
+}
+
 CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, Arguments& arguments) {
     CLI::App* command = app.add_subcommand(name, description);
     command->add_option("SCENE", arguments.scene, "Scene file (TOML); `slurry help scene` describes it")
@@ -82,6 +100,13 @@ CLI::App* add_scene_command(CLI::App& app, const char* name, const char* descrip
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false); // or it would take SCENE, too
     return command;
+}
+
+void add_bench_command(CLI::App& app, Arguments& arguments) {
+    CLI::App* command = app.add_subcommand("bench", "Measure this machine, and the pair loops on it");
+    command->add_option("--json", arguments.json, "Write the figures to this file, too")->type_name("FILE");
+    command->add_flag("--quick", arguments.quick, "Less than a second, and not accurate");
+    command->callback([&] { bench(arguments); });
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
@@ -111,6 +136,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
     helper->add_option("TOPIC", arguments.topic, "scene")->required()->check(CLI::IsMember({"scene"}));
     helper->add_flag("--markdown", arguments.markdown, "As Markdown, for the documentation");
     helper->callback([&] { print(arguments.markdown ? scene_manual_markdown() : scene_manual()); });
+    add_bench_command(app, arguments);
 }
 
 int run_command_line(int count, char** words, Arguments& arguments) {

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import fcntl
+import json
 import os
 import resource
 import subprocess
@@ -198,6 +199,26 @@ def test_result_is_replaced_as_a_whole(scene: Path) -> None:
         with h5py.File(folder / "result.h5") as file:
             assert file["run"].attrs["fluid_particles"] == particles
     assert len(list(folder.iterdir())) == 2
+
+
+def test_bench_prints_and_writes_the_same(tmp_path: Path) -> None:
+    done = slurry("bench", "--quick", "--json", "bench.json", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert [path.name for path in tmp_path.iterdir()] == ["bench.json"]
+    report = json.loads((tmp_path / "bench.json").read_text())
+    assert list(report) == [
+        "processor", "cores", "instruction_set", "lanes", "fma_peak_gflops", "pair_sweeps", "search",
+    ]  # fmt: skip
+    assert report["processor"] in done.stdout and report["instruction_set"] in done.stdout
+    sweeps = [(sweep["arithmetic"], sweep["sweep"]) for sweep in report["pair_sweeps"]]
+    assert sweeps == [(real, name) for real in ("float", "double") for name in ("density rate", "forces")]
+
+
+def test_bench_leaves_nothing_when_it_cannot_write(tmp_path: Path) -> None:
+    done = slurry("bench", "--quick", "--json", "absent/bench.json", cwd=tmp_path)
+    assert_refused(done, "absent/bench.json", "No such file or directory")
+    assert done.stdout == ""
+    assert not list(tmp_path.iterdir())
 
 
 # Bad command lines
