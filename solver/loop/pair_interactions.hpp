@@ -17,7 +17,6 @@
 #include "solver/terms/wall_extrapolation.hpp"
 #include "solver/terms/wall_fit.hpp"
 
-#include <algorithm>
 #include <type_traits>
 
 namespace slurry {
@@ -61,8 +60,12 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     void compute_volumes(Particles& particles) override {
         FluidParticles& fluid = particles.fluid;
         if (numerics_.particle_volume == ParticleVolume::mass_over_density) {
-            std::transform(fluid.density.begin(), fluid.density.end(), fluid.volume.begin(),
-                           [&](double density) { return fluid.mass / density; });
+            const auto count = static_cast<std::ptrdiff_t>(fluid.size());
+#pragma omp parallel for simd schedule(static)
+            for (std::ptrdiff_t i = 0; i < count; ++i) {
+                fluid.volume[static_cast<std::size_t>(i)] =
+                    fluid.mass / fluid.density[static_cast<std::size_t>(i)];
+            }
             return;
         }
         rows_.fill_volume(particles, numerics_.particle_spacing);

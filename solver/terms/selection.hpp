@@ -1,6 +1,6 @@
 #pragma once
 // Which terms a scene needs. The loops are composed from these at compile time
-// (solver/loop/pair_interactions.cpp).
+// (solver/loop/pair_interactions.hpp).
 #include "solver/scene/scene.hpp"
 
 #include <string>

@@ -11,6 +11,7 @@ namespace {
 Scene scene_of(double viscosity, double force) {
     Scene scene = doubly_periodic(10);
     scene.numerics.smoothing_ratio = 1.2; // h = 0.12
+    scene.numerics.acoustic_cfl = scene.numerics.viscous_cfl = scene.numerics.force_cfl = 0.25;
     scene.fluid = {1000, viscosity, {0.6 * force, -0.8 * force}};
     return scene;
 }
