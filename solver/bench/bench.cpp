@@ -58,6 +58,19 @@ std::string json(const PairSweepTime& time) {
         time.share_of_port_bound);
 }
 
+std::string json(const SearchTime& time) {
+    return fmt::format(R"({{"search": {}, "set": {}, "points": {}, "threads": {}, "seconds": {:.6g}}})",
+                       quoted(time.search), quoted(time.set), time.points, time.threads, time.seconds);
+}
+
+template <class Times> std::string json_list(const Times& times) {
+    std::string list;
+    for (const auto& time : times) {
+        list += (list.empty() ? "\n  " : ",\n  ") + json(time);
+    }
+    return "[" + list + "]";
+}
+
 } // namespace
 
 BenchReport measure_machine(bool quick) {
@@ -70,6 +83,7 @@ BenchReport measure_machine(bool quick) {
     for (PairSweepTime& time : time_pair_sweeps<double>(report.double_peak, quick)) {
         report.pair_sweeps.push_back(std::move(time));
     }
+    report.searches = time_searches(report.cores, quick);
     return report;
 }
 
@@ -93,22 +107,25 @@ std::string bench_text(const BenchReport& report) {
                         time.pairs_evaluated, time.flops_per_pair, time.useful_gflops,
                         100 * time.share_of_fma_peak, 100 * time.share_of_port_bound);
     }
+    text += fmt::format("neighbour search\n  {:11}  {:9}  {:>8}  {:>7}  {:>8}\n", "", "", "points", "threads",
+                        "ns/point");
+    for (const SearchTime& time : report.searches) {
+        text += fmt::format("  {:11}  {:9}  {:8}  {:7}  {:8.0f}\n", time.search, time.set, time.points,
+                            time.threads, time.seconds / static_cast<double>(time.points) * 1e9);
+    }
     return text;
 }
 
 std::string bench_json(const BenchReport& report) {
-    std::string sweeps;
-    for (const PairSweepTime& time : report.pair_sweeps) {
-        sweeps += (sweeps.empty() ? "\n  " : ",\n  ") + json(time);
-    }
     return fmt::format(R"({{"processor": {}, "cores": {}, "instruction_set": {},
  "lanes": {{"float": {}, "double": {}}},
  "fma_peak_gflops": {{"float": {}, "double": {}}},
- "pair_sweeps": [{}],
- "search": []}}
+ "pair_sweeps": {},
+ "search": {}}}
 )",
                        quoted(report.processor), report.cores, quoted(instruction_set), native_lanes<float>,
-                       native_lanes<double>, json(report.float_peak), json(report.double_peak), sweeps);
+                       native_lanes<double>, json(report.float_peak), json(report.double_peak),
+                       json_list(report.pair_sweeps), json_list(report.searches));
 }
 
 } // namespace slurry

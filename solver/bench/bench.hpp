@@ -2,6 +2,7 @@
 // `slurry bench`: where this machine stands, and where the pair loops stand on it.
 #include "solver/bench/fma_peak.hpp"
 #include "solver/bench/pair_sweeps.hpp"
+#include "solver/bench/search_times.hpp"
 
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct BenchReport {
     int cores;             // that this process may use
     FmaPeak float_peak, double_peak;
     std::vector<PairSweepTime> pair_sweeps;
+    std::vector<SearchTime> searches;
 };
 
 // `quick`: too short to be accurate; shows that everything works.

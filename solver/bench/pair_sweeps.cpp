@@ -4,6 +4,7 @@
 #include "solver/bench/port_bound.hpp"
 #include "solver/kernels/quintic_spline.hpp"
 #include "solver/loop/neighbourhood.hpp"
+#include "solver/loop/pair_count.hpp"
 #include "solver/loop/pass_rows.hpp"
 #include "solver/loop/sweep.hpp"
 #include "solver/output/phase_clock.hpp"
@@ -36,25 +37,6 @@ using Kernel = QuinticSpline;
 using DensityRate = Composition<CorrectedContinuity, DensityDiffusion>;
 using Forces = Composition<PressureForce, ViscousForce, BackgroundPressure, AdvectionTensor>;
 
-// Counts the pairs that a sweep goes through, and those of them within the kernel's support.
-template <class P> struct PairCounts { P evaluated, useful; };
-struct NoCoefficients {};
-struct CountPairs {
-    template <class P> struct Sums { P evaluated{}, useful{}; };
-    template <class P, class View>
-    static void add(Sums<P>& sums, const Pair<P>& pair, const View& /*unused*/, const View& /*unused*/) {
-        const P zero{};
-        const P one = zero + 1;
-        sums.evaluated += one;
-        sums.useful += pair.kernel > zero ? one : zero;
-    }
-    template <class P, class View>
-    static void finish(const Sums<P>& sums, const View& /*unused*/, const NoCoefficients& /*unused*/,
-                       PairCounts<P>& result) {
-        result = {sums.evaluated, sums.useful};
-    }
-};
-
 // Another number of threads than one would time the machine's memory too.
 class OneThread {
   public:
@@ -79,17 +61,6 @@ Scene periodic_box(int side) {
     return scene;
 }
 
-// What the results of a sweep add up to, each number of a Result by itself.
-template <class Real, class Result> std::vector<double> totals(const std::vector<Result>& results) {
-    using Numbers = std::array<Real, sizeof(Result) / sizeof(Real)>;
-    std::vector<double> sums(std::tuple_size_v<Numbers>, 0.0);
-    for (const Result& result : results) {
-        const auto numbers = std::bit_cast<Numbers>(result);
-        std::transform(sums.begin(), sums.end(), numbers.begin(), sums.begin(), std::plus<>());
-    }
-    return sums;
-}
-
 template <class Real> class SweepTimer {
   public:
     // `side`: particles along a side; its square is a multiple of the lanes, or the last block would be
@@ -102,11 +73,9 @@ template <class Real> class SweepTimer {
         const double spacing = scene_.numerics.particle_spacing;
         std::ranges::fill(particles_.fluid.volume, spacing * spacing);
         rows_.fill_rate(particles_);
-        std::vector<PairCounts<P>> counts(neighbourhood_.of_fluid().block_count());
-        run_sweep<RateView>(Composition<CountPairs>{}, NoCoefficients{}, counts);
-        const std::vector<double> sums = totals<Real>(counts);
-        evaluated_ = std::accumulate(sums.begin(), sums.begin() + W, 0.0);
-        useful_ = std::accumulate(sums.begin() + W, sums.end(), 0.0);
+        evaluated_ = static_cast<double>(neighbourhood_.of_fluid().evaluated());
+        useful_ = static_cast<double>(count_pairs<Real, W, Kernel, RateView>(
+            neighbourhood_.of_fluid(), rows_.rows().data(), particles_.fluid.size()));
     }
 
     PairSweepTime time_density_rate() {
@@ -140,8 +109,10 @@ template <class Real> class SweepTimer {
             run_sweep<View>(terms, coefficients, results);
             seconds = std::min(seconds, steady_seconds() - start);
         }
-        for (const double total : totals<Real>(results)) {
-            if (!std::isfinite(total)) {
+        using Numbers = std::array<Real, sizeof(Result<P>) / sizeof(Real)>;
+        for (const Result<P>& result : results) {
+            const auto numbers = std::bit_cast<Numbers>(result);
+            if (!std::all_of(numbers.begin(), numbers.end(), [](Real x) { return std::isfinite(x); })) {
                 throw RunError(fmt::format("bench: the sweep '{}' gave a number that is not finite", name));
             }
         }

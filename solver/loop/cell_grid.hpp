@@ -1,41 +1,46 @@
 #pragma once
-// Cell-linked list: points sorted by square cells of the cut-off's size, row by row.
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
+// Candidates sorted into cells, row by row, so that those near a target are one contiguous window in each of
+// three rows. The rows are as high as the cut-off. Narrow columns let the windows end near the cut-off's
+// circle.
+#include "solver/loop/neighbour_search.hpp"
+#include "solver/loop/packed_points.hpp"
+
+#include <array>
 
 namespace slurry {
 
-class CellGrid {
+class CellGrid final : public NeighbourFinder {
   public:
-    // Sorts the points `indices` of (x, y). Within a cell they keep the order of `indices`.
-    CellGrid(std::span<const double> x, std::span<const double> y, std::span<const std::uint32_t> indices,
-             double cell_size);
+    // Columns are the cut-off / columns_per_cutoff wide. Cells get larger where there would be more cells
+    // than candidates.
+    CellGrid(const SearchProblem& problem, int columns_per_cutoff);
 
-    // Calls visit(index) for every point in the 3 x 3 cells around (x, y), always in the same order.
-    template <class Visit> void visit_near(double x, double y, Visit&& visit) const {
-        const std::ptrdiff_t column = column_of(x);
-        const std::ptrdiff_t row = row_of(y);
-        const std::ptrdiff_t left = column > 0 ? column - 1 : 0;
-        const std::ptrdiff_t right = column + 1 < columns_ ? column + 1 : columns_ - 1;
-        for (std::ptrdiff_t r = row > 0 ? row - 1 : 0; r <= row + 1 && r < rows_; ++r) {
-            const auto first = start_[static_cast<std::size_t>(r * columns_ + left)];
-            const auto last = start_[static_cast<std::size_t>(r * columns_ + right + 1)];
-            for (auto k = first; k < last; ++k) {
-                visit(order_[k]);
-            }
-        }
-    }
+    // Of rows of cells, counted from y = 0. Points sorted by such rows, then by x, are found in order.
+    static double row_height(double cutoff);
+
+    void find(std::size_t first, std::size_t last, NeighbourLists& lists) const override;
 
   private:
-    [[nodiscard]] std::ptrdiff_t column_of(double x) const;
-    [[nodiscard]] std::ptrdiff_t row_of(double y) const;
+    static constexpr std::size_t batch = 64;
 
-    double lower_x_ = 0, lower_y_ = 0, inverse_size_ = 0;
-    std::ptrdiff_t columns_ = 1, rows_ = 1;
-    std::vector<std::uint32_t> start_;
-    std::vector<std::uint32_t> order_;
+    // The first and last cell of each of three windows, for a batch of targets.
+    struct Ends {
+        std::array<std::array<std::int32_t, batch>, 3> left, right;
+    };
+
+    void measure(int columns_per_cutoff);
+    void sort();
+    void locate(std::size_t first, std::size_t count, Ends& ends) const;
+    // In rows and columns, bounded to those that a target can be in. P is a number or a Pack of them.
+    template <class P> [[nodiscard]] P row_coordinate(const P& y) const;
+    template <class P> [[nodiscard]] P column_coordinate(const P& x) const;
+
+    SearchProblem problem_;
+    double lower_x_ = 0, lower_y_ = 0;
+    double width_ = 1, height_ = 1; // of a cell
+    std::int32_t columns_ = 1, rows_ = 5;
+    std::vector<std::uint32_t> start_; // of cell row * columns_ + column in points_
+    PackedPoints points_;
 };
 
 } // namespace slurry

@@ -10,14 +10,29 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::ptrdiff_t cell_count(double length, double size) {
-    return std::max(std::ptrdiff_t{1}, static_cast<std::ptrdiff_t>(length / size));
+// The first and last cell of a range of positions may be cut short; across a periodic side they are one.
+std::ptrdiff_t first_cell(double lower, double size) {
+    return static_cast<std::ptrdiff_t>(std::floor(lower / size));
+}
+
+std::ptrdiff_t cell_count(double lower, double upper, double size, bool periodic) {
+    return periodic ? std::max(std::ptrdiff_t{1}, std::lround((upper - lower) / size))
+                    : first_cell(upper, size) - first_cell(lower, size) + 1;
 }
 
 // Cells beyond a periodic side are those at the other; beyond any other side there is nothing, and the last
 // cell stands for it.
 std::ptrdiff_t into_range(std::ptrdiff_t cell, std::ptrdiff_t count, bool periodic) {
-    return periodic ? (cell % count + count) % count : std::clamp(cell, std::ptrdiff_t{0}, count - 1);
+    if (!periodic) {
+        return std::clamp(cell, std::ptrdiff_t{0}, count - 1);
+    }
+    while (cell < 0) { // once at most: a division would take longer than all the rest
+        cell += count;
+    }
+    while (cell >= count) {
+        cell -= count;
+    }
+    return cell;
 }
 
 } // namespace
@@ -38,24 +53,24 @@ double DisplacementWatch::Box::squared_diagonal_with(const Box& other) const {
 }
 
 std::uint32_t DisplacementWatch::cell_of(double x, double y) const {
-    const auto column = static_cast<std::ptrdiff_t>(std::floor((x - lower_.x()) * inverse_size_.x()));
-    const auto row = static_cast<std::ptrdiff_t>(std::floor((y - lower_.y()) * inverse_size_.y()));
+    const auto column = static_cast<std::ptrdiff_t>(std::floor(x / size_.x())) - first_column_;
+    const auto row = static_cast<std::ptrdiff_t>(std::floor(y / size_.y())) - first_row_;
     return static_cast<std::uint32_t>(into_range(row, rows_, periodic_y_) * columns_ +
                                       into_range(column, columns_, periodic_x_));
 }
 
 void DisplacementWatch::start(const Particles& particles, std::span<const double> x,
-                              std::span<const double> y, const Domain& domain, double reach) {
+                              std::span<const double> y, const Domain& domain, const Vector& cell_size) {
     start_x_ = x;
     start_y_ = y;
     start_time_ = particles.time;
     periodic_x_ = domain.periodic[0];
     periodic_y_ = domain.periodic[1];
-    lower_ = domain.lower;
-    const Vector size = domain.size();
-    columns_ = cell_count(size.x(), 2 * reach); // wide, so that runs are long
-    rows_ = cell_count(size.y(), reach);
-    inverse_size_ = {static_cast<double>(columns_) / size.x(), static_cast<double>(rows_) / size.y()};
+    size_ = cell_size;
+    first_column_ = first_cell(domain.lower.x(), size_.x());
+    first_row_ = first_cell(domain.lower.y(), size_.y());
+    columns_ = cell_count(domain.lower.x(), domain.upper.x(), size_.x(), periodic_x_);
+    rows_ = cell_count(domain.lower.y(), domain.upper.y(), size_.y(), periodic_y_);
     runs_.clear();
     const auto fluid = static_cast<std::uint32_t>(particles.fluid.size());
     for (std::uint32_t i = 0; i < fluid; ++i) {
@@ -78,15 +93,22 @@ void DisplacementWatch::start(const Particles& particles, std::span<const double
 }
 
 DisplacementWatch::Box DisplacementWatch::displacements(const FluidParticles& fluid, const Run& run) const {
-    Box box{infinity, -infinity, infinity, -infinity};
-    for (std::uint32_t i = run.first; i < run.last; ++i) {
-        const double x = fluid.x[i] - start_x_[i];
-        const double y = fluid.y[i] - start_y_[i];
-        box.low_x = x < box.low_x ? x : box.low_x;
-        box.high_x = x > box.high_x ? x : box.high_x;
-        box.low_y = y < box.low_y ? y : box.low_y;
-        box.high_y = y > box.high_y ? y : box.high_y;
-    }
+    Box box{};
+    const auto range = [&](const std::vector<double>& now, std::span<const double> start, double& lowest,
+                           double& highest) {
+        double low = infinity;
+        double high = -infinity;
+#pragma omp simd reduction(min : low) reduction(max : high)
+        for (std::uint32_t i = run.first; i < run.last; ++i) {
+            const double moved = now[i] - start[i];
+            low = moved < low ? moved : low;
+            high = moved > high ? moved : high;
+        }
+        lowest = low;
+        highest = high;
+    };
+    range(fluid.x, start_x_, box.low_x, box.high_x);
+    range(fluid.y, start_y_, box.low_y, box.high_y);
     return box;
 }
 

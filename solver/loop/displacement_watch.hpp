@@ -13,10 +13,11 @@ namespace slurry {
 class DisplacementWatch {
   public:
     // Starts anew from the positions x, y (fluid, then dummies; wrapped into the domain; they must outlive
-    // the watch). Pairs nearer than `reach` are watched, of dummies also those nearer than that to the
-    // dummy's wall point.
+    // the watch). Pairs in the same cell or in two that touch are watched; of a dummy also those of its wall
+    // point. Cells are counted from (0, 0), and a period is a whole number of them. Particles should be
+    // sorted by their rows: those of a cell are then looked at together.
     void start(const Particles& particles, std::span<const double> x, std::span<const double> y,
-               const Domain& domain, double reach);
+               const Domain& domain, const Vector& cell_size);
 
     // Upper bound on the largest displacement of two near particles against each other since the start, m.
     [[nodiscard]] double largest(const Particles& particles) const;
@@ -43,9 +44,8 @@ class DisplacementWatch {
 
     std::span<const double> start_x_, start_y_;
     double start_time_ = 0;
-    Vector lower_ = Vector::Zero();
-    Vector inverse_size_ = Vector::Zero();
-    std::ptrdiff_t columns_ = 1, rows_ = 1; // cells, each at least `reach` wide and high
+    Vector size_ = Vector::Ones(); // of a cell
+    std::ptrdiff_t first_column_ = 0, first_row_ = 0, columns_ = 1, rows_ = 1;
     bool periodic_x_ = false, periodic_y_ = false;
     std::vector<Run> runs_;
     std::vector<WallCell> wall_cells_;

@@ -1,6 +1,6 @@
 #include "solver/loop/interactions.hpp"
 
-#include "solver/kernels/compact_gaussian.hpp"
+#include "solver/kernels/fitted_quintic.hpp"
 #include "solver/kernels/quintic_spline.hpp"
 #include "solver/kernels/wendland.hpp"
 #include "solver/loop/pair_interactions.hpp"
@@ -15,10 +15,10 @@ std::unique_ptr<Interactions> make_interactions(const Scene& scene, LoopWidth wi
         return make_pair_interactions<WendlandC2>(scene, width);
     case KernelShape::wendland_c4:
         return make_pair_interactions<WendlandC4>(scene, width);
-    case KernelShape::compact_gaussian:
+    case KernelShape::fitted_quintic:
         break;
     }
-    return make_pair_interactions<CompactGaussian>(scene, width);
+    return make_pair_interactions<FittedQuintic>(scene, width);
 }
 
 } // namespace slurry

@@ -8,7 +8,7 @@
 
 namespace slurry {
 
-// What the neighbour lists cost. Counts are those of the fluid's lists as they are now.
+// What the neighbour lists cost. Counts are those of the fluid's lists as they are now, after a pass.
 struct ListStatistics {
     long rebuilds = 0;         // since the start
     std::size_t pairs = 0;     // nearer than the kernel's support and the skin when the lists were made

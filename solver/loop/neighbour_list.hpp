@@ -1,7 +1,7 @@
 #pragma once
 // Neighbours of consecutive targets, interleaved for the pair loop: block b holds targets b W ... b W + W -
 // 1, and entry k of lane l is its k-th neighbour. Short lanes are padded with a row that is far away.
-#include "solver/loop/cell_grid.hpp"
+#include "solver/loop/neighbour_search.hpp"
 
 #include <cstdint>
 #include <span>
@@ -11,33 +11,56 @@ namespace slurry {
 
 class NeighbourList {
   public:
-    // A list for blocks of `width` targets. An entry is the neighbour's index times `stride`: the distance of
-    // two rows in bytes, so that the pair loop need not multiply.
-    explicit NeighbourList(int width, std::size_t stride = 1)
-        : width_(static_cast<std::size_t>(width)), stride_(static_cast<std::uint32_t>(stride)) {}
+    // A list for blocks of `width` targets. An entry is an index times `stride`: the offset of a row in
+    // bytes, so that the pair loop need not multiply.
+    NeighbourList(int width, NeighbourSearch search, std::size_t stride = 1)
+        : width_(static_cast<std::size_t>(width)), search_(search),
+          stride_(static_cast<std::uint32_t>(stride)) {}
 
-    // Lists for targets first ... last - 1 all points of the grid nearer than the cut-off, themselves
-    // excepted, in an order that depends on the grid alone.
-    void build(std::span<const double> x, std::span<const double> y, const CellGrid& grid, std::size_t first,
-               std::size_t last, std::uint32_t padding, double cutoff);
+    // Lists for the targets first ... last - 1 of the points (x, y) all candidates nearer than the cut-off,
+    // themselves excepted, in ascending order: neither the search nor the number of threads changes a sum
+    // over them. Candidates are indices into (x, y), each at most once; targets need not be candidates.
+    // `row_height`: see SearchProblem.
+    void build(std::span<const double> x, std::span<const double> y,
+               std::span<const std::uint32_t> candidates, std::size_t first, std::size_t last,
+               std::uint32_t padding, double cutoff, double row_height = 0);
 
-    [[nodiscard]] std::size_t block_count() const { return counts_.size(); }
+    [[nodiscard]] std::size_t block_count() const { return blocks_.size(); }
     [[nodiscard]] const std::uint32_t* targets(std::size_t block) const {
         return targets_.data() + block * width_;
     }
     [[nodiscard]] const std::uint32_t* neighbours(std::size_t block) const {
-        return entries_.data() + block * capacity_ * width_;
+        return chunks_[block / chunk_blocks].entries.data() + blocks_[block].first;
     }
     // Entries per lane, padding included.
-    [[nodiscard]] std::size_t count(std::size_t block) const { return counts_[block]; }
+    [[nodiscard]] std::size_t count(std::size_t block) const { return blocks_[block].count; }
+
+    // Neighbours in all lists, and entries that a pair loop goes through for them: padding included.
+    [[nodiscard]] std::size_t pairs() const;
+    [[nodiscard]] std::size_t evaluated() const;
+    [[nodiscard]] std::size_t bytes() const;
 
   private:
+    static constexpr std::size_t chunk_blocks = 64;
+
+    struct Block {
+        std::uint32_t first, count; // in its chunk's entries; per lane
+    };
+    // The entries of consecutive blocks. Each chunk has its own, so that a crowded one makes no other longer
+    // and threads need not know of each other's.
+    struct Chunk {
+        std::vector<std::uint32_t> entries;
+        std::size_t pairs = 0;
+    };
+
+    void fill_chunk(std::size_t chunk, NeighbourLists& lists, std::uint32_t padding);
+
     std::size_t width_;
+    NeighbourSearch search_;
     std::uint32_t stride_;
-    std::size_t capacity_ = 40; // per lane; grows when a target has more neighbours
     std::vector<std::uint32_t> targets_;
-    std::vector<std::uint32_t> entries_;
-    std::vector<std::size_t> counts_;
+    std::vector<Block> blocks_;
+    std::vector<Chunk> chunks_;
 };
 
 } // namespace slurry

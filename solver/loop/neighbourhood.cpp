@@ -1,10 +1,12 @@
 #include "solver/loop/neighbourhood.hpp"
 
+#include "solver/loop/cell_grid.hpp"
 #include "solver/particles/run_error.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace slurry {
 
@@ -12,7 +14,12 @@ namespace {
 
 // Extra reach of the neighbour lists, in particle spacings: a longer skin means fewer rebuilds and longer
 // lists.
-constexpr double skin_ratio = 0.25;
+const double skin_ratio = std::getenv("SKIN") ? atof(std::getenv("SKIN")) : 0.25;
+
+// At least `least`; of a periodic axis, the length over a whole number.
+double cell_size(double least, double length, bool periodic) {
+    return periodic ? length / std::max(1.0, std::floor(length / least)) : least;
+}
 
 } // namespace
 
@@ -22,8 +29,9 @@ Neighbourhood::Neighbourhood(const Scene& scene, double support, double wall_sup
       wall_points_(scene.numerics.wall_extrapolation == WallExtrapolation::fit),
       spacing_(scene.numerics.particle_spacing), skin_(skin_ratio * spacing_),
       support_(support * scene.numerics.smoothing_length()),
-      wall_support_(wall_support * scene.numerics.smoothing_length()), fluid_list_(width, row_bytes),
-      dummy_list_(width, row_bytes) {}
+      wall_support_(wall_support * scene.numerics.smoothing_length()),
+      fluid_list_(width, scene.numerics.neighbour_search, row_bytes),
+      dummy_list_(width, scene.numerics.neighbour_search, row_bytes) {}
 
 void Neighbourhood::refresh(Particles& particles) {
     if (rebuilds_ > 0) {
@@ -38,11 +46,13 @@ void Neighbourhood::refresh(Particles& particles) {
     const auto& depths = particles.dummies.depth;
     const double deepest =
         wall_points_ && !depths.empty() ? *std::max_element(depths.begin(), depths.end()) : 0;
-    periodic_.rebuild(particles, domain_, reach, deepest);
-    watch_.start(particles, periodic_.x(), periodic_.y(), domain_, reach);
-    const CellGrid all(periodic_.x(), periodic_.y(), periodic_.all_rows(), support_ + skin_);
-    fluid_list_.build(periodic_.x(), periodic_.y(), all, 0, periodic_.fluid_count(), periodic_.padding(),
-                      support_ + skin_);
+    // Wide cells make long runs of particles. Particles sorted by the search's rows are found in order.
+    const Vector cell(cell_size(2 * reach, domain_.size().x(), domain_.periodic[0]),
+                      cell_size(CellGrid::row_height(reach), domain_.size().y(), domain_.periodic[1]));
+    periodic_.rebuild(particles, domain_, cell.y(), reach + deepest);
+    watch_.start(particles, periodic_.x(), periodic_.y(), domain_, cell);
+    fluid_list_.build(periodic_.x(), periodic_.y(), periodic_.all_rows(), 0, periodic_.fluid_count(),
+                      periodic_.padding(), support_ + skin_, cell.y());
     if (walls_) {
         build_dummy_list(particles.dummies);
     }
@@ -57,10 +67,8 @@ void Neighbourhood::build_dummy_list(const DummyParticles& dummies) {
         x[periodic_.fluid_count() + d] += dummies.depth[d] * dummies.normal_x[d];
         y[periodic_.fluid_count() + d] += dummies.depth[d] * dummies.normal_y[d];
     }
-    const double reach = wall_support_ + skin_;
-    const CellGrid fluid(x, y, periodic_.fluid_rows(), reach);
-    dummy_list_.build(x, y, fluid, periodic_.fluid_count(), periodic_.particle_count(), periodic_.padding(),
-                      reach);
+    dummy_list_.build(x, y, periodic_.fluid_rows(), periodic_.fluid_count(), periodic_.particle_count(),
+                      periodic_.padding(), wall_support_ + skin_);
 }
 
 // Lists are looked at twice a step: whoever has left its neighbours behind since then is not simulated any
@@ -73,10 +81,9 @@ void Neighbourhood::refuse_flight(const Particles& particles, double displacemen
     }
 }
 
-ListStatistics Neighbourhood::statistics(const Particles& /*particles*/) const {
-    ListStatistics statistics;
-    statistics.rebuilds = rebuilds_;
-    return statistics;
+ListStatistics Neighbourhood::statistics() const {
+    return {rebuilds_, fluid_list_.pairs(), fluid_list_.evaluated(), 0,
+            fluid_list_.bytes() + dummy_list_.bytes() + periodic_.bytes()};
 }
 
 } // namespace slurry

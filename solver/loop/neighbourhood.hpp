@@ -20,7 +20,8 @@ class Neighbourhood {
     [[nodiscard]] const PeriodicRows& periodic() const { return periodic_; }
     [[nodiscard]] const NeighbourList& of_fluid() const { return fluid_list_; }
     [[nodiscard]] const NeighbourList& of_dummies() const { return dummy_list_; }
-    [[nodiscard]] ListStatistics statistics(const Particles& particles) const;
+    // All but the useful pairs.
+    [[nodiscard]] ListStatistics statistics() const;
 
   private:
     void refuse_flight(const Particles& particles, double displacement) const;

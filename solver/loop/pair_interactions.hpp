@@ -2,6 +2,7 @@
 // The passes of a time step over pairs of particles. Which terms are in a pass is a compile-time composition;
 // the branches here choose among compositions once per pass.
 #include "solver/loop/neighbourhood.hpp"
+#include "solver/loop/pair_count.hpp"
 #include "solver/loop/pass_rows.hpp"
 #include "solver/loop/sweep.hpp"
 #include "solver/terms/advection_tensor.hpp"
@@ -106,8 +107,10 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     }
 
     [[nodiscard]] ListStatistics list_statistics(const Particles& particles) const override {
-        ListStatistics statistics = neighbourhood_.statistics(particles);
+        ListStatistics statistics = neighbourhood_.statistics();
         statistics.bytes += rows_.bytes();
+        statistics.useful = count_pairs<Real, W, Kernel, ForceView>(
+            neighbourhood_.of_fluid(), rows_.rows().data(), particles.fluid.size());
         return statistics;
     }
 
@@ -216,7 +219,7 @@ extern template std::unique_ptr<Interactions> make_pair_interactions<class Wendl
                                                                                        LoopWidth);
 extern template std::unique_ptr<Interactions> make_pair_interactions<class WendlandC4>(const Scene&,
                                                                                        LoopWidth);
-extern template std::unique_ptr<Interactions> make_pair_interactions<class CompactGaussian>(const Scene&,
-                                                                                            LoopWidth);
+extern template std::unique_ptr<Interactions> make_pair_interactions<class FittedQuintic>(const Scene&,
+                                                                                          LoopWidth);
 
 } // namespace slurry

@@ -14,30 +14,74 @@ double wrap_shift(double position, double lower, double length) {
     return -std::floor((position - lower) / length) * length;
 }
 
+// Sorts what is nearly sorted, as a strip is that was sorted some steps ago: few numbers move, and not far.
+// Gives up and sorts from scratch when they do.
+template <class Key, class Less> void sort_nearly_sorted(std::span<Key> keys, Less&& less) {
+    std::size_t moves = 8 * keys.size();
+    for (std::size_t k = 1; k < keys.size(); ++k) {
+        const Key key = keys[k];
+        std::size_t hole = k;
+        for (; hole > 0 && less(key, keys[hole - 1]); --hole) {
+            keys[hole] = keys[hole - 1];
+            if (--moves == 0) {
+                keys[hole - 1] = key;
+                std::sort(keys.begin(), keys.end(), less);
+                return;
+            }
+        }
+        keys[hole] = key;
+    }
+}
+
 // Order by strips of the given height, then by x.
 std::vector<std::uint32_t> strip_order(const std::vector<double>& x, const std::vector<double>& y,
-                                       double lower_y, double height) {
+                                       double height) {
     struct Key {
-        std::int32_t strip;
-        std::uint32_t index;
         double x;
+        std::uint32_t index;
     };
-    std::vector<Key> keys(x.size());
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-        keys[k] = {static_cast<std::int32_t>(std::floor((y[k] - lower_y) / height)),
-                   static_cast<std::uint32_t>(k), x[k]};
+    const std::size_t count = x.size();
+    if (count == 0) {
+        return {};
     }
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-        return a.strip != b.strip ? a.strip < b.strip : (a.x != b.x ? a.x < b.x : a.index < b.index);
-    });
-    std::vector<std::uint32_t> order(keys.size());
+    const auto strip_of = [&](double position) { return std::floor(position / height); };
+    // A position that is not a number, or absurd, is put with the last; the watchdog will find it.
+    const double lowest = strip_of(*std::min_element(y.begin(), y.end()));
+    const double strips = std::clamp(strip_of(*std::max_element(y.begin(), y.end())) - lowest + 1, 1.0,
+                                     static_cast<double>(count));
+    std::vector<std::uint32_t> strip(count);
+    std::vector<std::size_t> ends(static_cast<std::size_t>(strips) + 1, 0);
+    for (std::size_t k = 0; k < count; ++k) {
+        const double place = strip_of(y[k]) - lowest;
+        strip[k] = static_cast<std::uint32_t>(place >= 0 && place < strips ? place : strips - 1);
+        ++ends[strip[k] + 1];
+    }
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Key> keys(count);
+    for (std::size_t k = 0; k < count; ++k) { // afterwards ends[s] is where strip s ends
+        keys[ends[strip[k]]++] = {x[k], static_cast<std::uint32_t>(k)};
+    }
+    const auto strip_count = static_cast<std::ptrdiff_t>(strips);
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t s = 0; s < strip_count; ++s) {
+        const std::size_t first = s > 0 ? ends[static_cast<std::size_t>(s) - 1] : 0;
+        const auto less = [](const Key& a, const Key& b) {
+            return a.x != b.x ? a.x < b.x : a.index < b.index;
+        };
+        sort_nearly_sorted(std::span(keys).subspan(first, ends[static_cast<std::size_t>(s)] - first), less);
+    }
+    std::vector<std::uint32_t> order(count);
     std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& key) { return key.index; });
     return order;
 }
 
 template <class T> void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
     std::vector<T> sorted(values.size());
-    std::transform(order.begin(), order.end(), sorted.begin(), [&](std::uint32_t k) { return values[k]; });
+    const auto count = static_cast<std::ptrdiff_t>(order.size());
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+        sorted[static_cast<std::size_t>(k)] = values[order[static_cast<std::size_t>(k)]];
+    }
     values.swap(sorted);
 }
 
@@ -67,28 +111,28 @@ void wrap(Particles& particles, const Domain& domain) {
     }
 }
 
-void sort(Particles& particles, double lower_y, double strip_height) {
+void sort(Particles& particles, double strip_height) {
     FluidParticles& fluid = particles.fluid;
-    const auto order = strip_order(fluid.x, fluid.y, lower_y, strip_height);
+    const auto order = strip_order(fluid.x, fluid.y, strip_height);
     fluid.each_array([&](std::vector<double>& array) { reorder(array, order); });
     reorder(fluid.identity, order);
     DummyParticles& dummies = particles.dummies;
-    const auto dummy_order = strip_order(dummies.x, dummies.y, lower_y, strip_height);
+    const auto dummy_order = strip_order(dummies.x, dummies.y, strip_height);
     dummies.each_array([&](auto& array) { reorder(array, dummy_order); });
 }
 
 } // namespace
 
-void PeriodicRows::rebuild(Particles& particles, const Domain& domain, double reach, double margin) {
+void PeriodicRows::rebuild(Particles& particles, const Domain& domain, double strip_height, double reach) {
     wrap(particles, domain);
-    sort(particles, domain.lower.y(), reach);
+    sort(particles, strip_height);
     fluid_count_ = particles.fluid.size();
     particle_count_ = fluid_count_ + particles.dummies.size();
     x_ = particles.fluid.x;
     y_ = particles.fluid.y;
     x_.insert(x_.end(), particles.dummies.x.begin(), particles.dummies.x.end());
     y_.insert(y_.end(), particles.dummies.y.begin(), particles.dummies.y.end());
-    add_copies(domain, reach + margin);
+    add_copies(domain, reach);
 }
 
 void PeriodicRows::add_copies(const Domain& domain, double reach) {

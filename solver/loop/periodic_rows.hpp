@@ -18,10 +18,10 @@ class PeriodicRows {
         Vector shift;
     };
 
-    // Wraps the particles into the domain, sorts them into strips (by y in steps of `reach`, then by x) so
-    // that neighbours are near in memory, and finds the copies within `reach` + `margin` of a periodic side.
-    // The margin is for sums about points outside the domain, m.
-    void rebuild(Particles& particles, const Domain& domain, double reach, double margin = 0);
+    // Wraps the particles into the domain, sorts them into strips (by y in steps of `strip_height`, counted
+    // from y = 0, then by x) so that neighbours are near in memory, and finds the copies within `reach` of a
+    // periodic side, m.
+    void rebuild(Particles& particles, const Domain& domain, double strip_height, double reach);
 
     [[nodiscard]] std::size_t fluid_count() const { return fluid_count_; }
     [[nodiscard]] std::size_t particle_count() const { return particle_count_; }
@@ -35,6 +35,10 @@ class PeriodicRows {
     // Rows that are fluid or copies of fluid; all rows (padding excepted).
     [[nodiscard]] std::vector<std::uint32_t> fluid_rows() const;
     [[nodiscard]] std::vector<std::uint32_t> all_rows() const;
+
+    [[nodiscard]] std::size_t bytes() const {
+        return copies_.capacity() * sizeof(Copy) + (x_.capacity() + y_.capacity()) * sizeof(double);
+    }
 
     // Names the fluid particle that has moved farthest since the rebuild, for messages.
     [[nodiscard]] std::string farthest_moved(const Particles& particles) const;

@@ -22,4 +22,16 @@ void DummyParticles::move_to(double time) {
     }
 }
 
+std::size_t FluidParticles::bytes() const {
+    std::size_t sum = identity.capacity() * sizeof(std::uint32_t);
+    each_array_of(*this, [&](const auto& array) { sum += array.capacity() * sizeof(array[0]); });
+    return sum;
+}
+
+std::size_t DummyParticles::bytes() const {
+    std::size_t sum = 0;
+    each_array_of(*this, [&](const auto& array) { sum += array.capacity() * sizeof(array[0]); });
+    return sum;
+}
+
 } // namespace slurry

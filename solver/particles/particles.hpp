@@ -21,10 +21,15 @@ struct FluidParticles {
     [[nodiscard]] std::size_t size() const { return x.size(); }
     void resize(std::size_t count);
     // Calls visit(vector) for every array of doubles.
-    template <class Visit> void each_array(Visit&& visit) {
+    template <class Visit> void each_array(Visit&& visit) { each_array_of(*this, visit); }
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    template <class Self, class Visit> static void each_array_of(Self& self, Visit&& visit) {
         for (auto* array :
-             {&x, &y, &velocity_x, &velocity_y, &shift_x, &shift_y, &acceleration_x, &acceleration_y,
-              &background_x, &background_y, &density, &density_rate, &pressure, &volume}) {
+             {&self.x, &self.y, &self.velocity_x, &self.velocity_y, &self.shift_x, &self.shift_y,
+              &self.acceleration_x, &self.acceleration_y, &self.background_x, &self.background_y,
+              &self.density, &self.density_rate, &self.pressure, &self.volume}) {
             visit(*array);
         }
     }
@@ -47,15 +52,20 @@ struct DummyParticles {
     [[nodiscard]] std::size_t size() const { return x.size(); }
     void resize(std::size_t count);
     // Calls visit(vector) for every array with an entry per dummy.
-    template <class Visit> void each_array(Visit&& visit) {
-        for (auto* array : {&x, &y, &start_x, &start_y, &volume, &velocity_x, &velocity_y, &pressure,
-                            &normal_x, &normal_y, &depth, &curvature}) {
-            visit(*array);
-        }
-        visit(wall);
-    }
+    template <class Visit> void each_array(Visit&& visit) { each_array_of(*this, visit); }
     // Puts every dummy where its wall has carried it.
     void move_to(double time);
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    template <class Self, class Visit> static void each_array_of(Self& self, Visit&& visit) {
+        for (auto* array : {&self.x, &self.y, &self.start_x, &self.start_y, &self.volume, &self.velocity_x,
+                            &self.velocity_y, &self.pressure, &self.normal_x, &self.normal_y, &self.depth,
+                            &self.curvature}) {
+            visit(*array);
+        }
+        visit(self.wall);
+    }
 };
 
 struct Particles {

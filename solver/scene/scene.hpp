@@ -24,9 +24,11 @@ enum class ParticleVolume : std::uint8_t { mass_over_density, number_density };
 enum class WallExtrapolation : std::uint8_t { mean, fit };
 // Of the sums over pairs. The state, its integration and the output are in double precision always.
 enum class PairArithmetic : std::uint8_t { single_precision, double_precision };
-enum class KernelShape : std::uint8_t { quintic, wendland_c2, wendland_c4, compact_gaussian };
+enum class KernelShape : std::uint8_t { quintic, wendland_c2, wendland_c4, fitted_quintic };
 // Pressure between two particles: weighted with their densities (Eq. 2.15), or (p_i + p_j) / 2.
 enum class PressureMean : std::uint8_t { density_weighted, plain };
+// How neighbours are found; the lists do not depend on it.
+enum class NeighbourSearch : std::uint8_t { strips, cells, plane_sweep };
 enum class Arrangement : std::uint8_t { lattice, jittered, relaxed };
 enum class InitialVelocity : std::uint8_t { rest, shear, taylor_green };
 enum class FluidSide : std::uint8_t { above, below, left, right };
@@ -50,7 +52,7 @@ struct Fluid {
 struct Numerics {
     double particle_spacing = 0; // m
     PairArithmetic pair_arithmetic = PairArithmetic::single_precision;
-    KernelShape kernel = KernelShape::quintic;
+    KernelShape kernel = KernelShape::fitted_quintic;
     double smoothing_ratio = 1;           // smoothing length / particle spacing
     double sound_speed = 0;               // m/s
     double background_pressure_ratio = 1; // p_b / (rho0 c^2); 0 = no transport velocity
@@ -65,6 +67,7 @@ struct Numerics {
     WallExtrapolation wall_extrapolation = WallExtrapolation::fit;
     WallContinuity wall_continuity = WallContinuity::wall_velocity;
     ParticleVolume particle_volume = ParticleVolume::mass_over_density;
+    NeighbourSearch neighbour_search = NeighbourSearch::strips;
 
     [[nodiscard]] double smoothing_length() const { return smoothing_ratio * particle_spacing; }
 };

@@ -42,6 +42,17 @@ int useful_threads(int wanted, const Particles& particles) {
     return std::clamp(static_cast<int>(shares), 1, wanted);
 }
 
+void write_list_attributes(ResultFile& file, const Particles& particles, const ListStatistics& lists) {
+    const auto count = static_cast<double>(particles.fluid.size() + particles.dummies.size());
+    file.set_attribute("list_rebuilds", static_cast<double>(lists.rebuilds));
+    file.set_attribute("list_pairs", static_cast<double>(lists.pairs));
+    file.set_attribute("list_evaluated", static_cast<double>(lists.evaluated));
+    file.set_attribute("list_useful", static_cast<double>(lists.useful));
+    file.set_attribute(
+        "bytes_per_particle",
+        static_cast<double>(lists.bytes + particles.fluid.bytes() + particles.dummies.bytes()) / count);
+}
+
 void write_run_attributes(ResultFile& file, const Particles& particles, long steps, double time_step,
                           int threads, const PhaseClock& clock) {
     const double seconds = clock.elapsed();
@@ -98,6 +109,7 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
         }
     }
     write_run_attributes(file, particles, steps, time_step, threads, clock);
+    write_list_attributes(file, particles, interactions->list_statistics(particles));
     RunSummary summary{file.finish(), steps};
     if (!options.quiet) {
         const auto count = particles.fluid.size() + particles.dummies.size();

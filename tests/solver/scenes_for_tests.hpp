@@ -18,6 +18,7 @@ inline Scene core_scene(const Vector& lower, const Vector& size, std::array<bool
     scene.fluid = {1000, 2, Vector::Zero()};
     scene.numerics.particle_spacing = spacing;
     scene.numerics.sound_speed = 10;
+    scene.numerics.kernel = KernelShape::quintic;
     scene.numerics.pair_arithmetic = PairArithmetic::double_precision; // equations hold to rounding
     return scene;
 }

@@ -1,5 +1,5 @@
 // What every kernel must be, and Eq. 2.4 in particular. Lengths in smoothing lengths.
-#include "solver/kernels/compact_gaussian.hpp"
+#include "solver/kernels/fitted_quintic.hpp"
 #include "solver/kernels/quintic_spline.hpp"
 #include "solver/kernels/wendland.hpp"
 #include "solver/loop/pair.hpp"
@@ -7,6 +7,7 @@
 #include <gsl/gsl_integration.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -32,7 +33,7 @@ template <class Function> double integral(Function&& function, double upper) {
 }
 
 template <class Kernel> class EveryKernel : public ::testing::Test {};
-using Kernels = ::testing::Types<QuinticSpline, WendlandC2, WendlandC4, CompactGaussian>;
+using Kernels = ::testing::Types<QuinticSpline, WendlandC2, WendlandC4, FittedQuintic>;
 TYPED_TEST_SUITE(EveryKernel, Kernels);
 
 TYPED_TEST(EveryKernel, IntegratesToOne) {
@@ -101,9 +102,23 @@ template <class Kernel> double lattice_moment() {
     return sum;
 }
 
-TEST(CompactGaussian, KeepsTheStrengthOfGradientsOnALattice) {
-    EXPECT_NEAR(lattice_moment<CompactGaussian>(), -1, 1e-4);
+TEST(FittedQuintic, KeepsTheStrengthOfGradientsOnALattice) {
+    EXPECT_NEAR(lattice_moment<FittedQuintic>(), -1, 1e-10);
     EXPECT_NEAR(lattice_moment<QuinticSpline>(), -1, 1e-3);
+}
+
+TEST(FittedQuintic, IsCloseToTheSpline) {
+    double kernel = 0, force = 0, kernel_peak = 0, force_peak = 0;
+    for (double q = 0.01; q < 3.1; q += 0.01) {
+        const Pair<double> fitted = make_pair<FittedQuintic>(q, 0.0);
+        const Pair<double> spline = make_pair<QuinticSpline>(q, 0.0);
+        kernel = std::max(kernel, std::abs(fitted.kernel - spline.kernel));
+        force = std::max(force, std::abs(fitted.slope - spline.slope) * q);
+        kernel_peak = std::max(kernel_peak, spline.kernel);
+        force_peak = std::max(force_peak, -spline.slope * q);
+    }
+    EXPECT_LT(kernel, 1.7e-4 * kernel_peak);
+    EXPECT_LT(force, 1.5e-3 * force_peak);
 }
 
 TEST(QuinticSpline, IntegratesToOneInOneAndThreeDimensions) {

@@ -9,6 +9,7 @@ namespace slurry::testing {
 namespace {
 
 constexpr double reach = 0.17;
+const Vector cell(0.2, 0.2); // a fifth of the period
 
 struct Watched {
     Scene scene;
@@ -21,7 +22,7 @@ struct Watched {
         y = particles.fluid.y;
         x.insert(x.end(), particles.dummies.x.begin(), particles.dummies.x.end());
         y.insert(y.end(), particles.dummies.y.begin(), particles.dummies.y.end());
-        watch.start(particles, x, y, scene.domain, reach);
+        watch.start(particles, x, y, scene.domain, cell);
     }
     [[nodiscard]] double largest() const { return watch.largest(particles); }
 };

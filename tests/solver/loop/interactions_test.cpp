@@ -102,7 +102,7 @@ TEST(Interactions, FloatAgreesWithPlainNumbersInEveryComposition) {
 
 TEST(Interactions, EveryKernelAgreesWithPlainNumbers) {
     for (const KernelShape kernel : {KernelShape::quintic, KernelShape::wendland_c2, KernelShape::wendland_c4,
-                                     KernelShape::compact_gaussian}) {
+                                     KernelShape::fitted_quintic}) {
         for (const unsigned bits : {0U, compositions - 1, compositions - 1 - 64U}) {
             Scene scene = composed(bits, true);
             scene.numerics.kernel = kernel;

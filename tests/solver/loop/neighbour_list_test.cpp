@@ -1,4 +1,4 @@
-// Cell grid, periodic copies and neighbour lists together, against all pairs with the minimum image.
+// Periodic copies and neighbour lists together, against all pairs with the minimum image.
 #include "solver/loop/neighbour_list.hpp"
 
 #include "solver/loop/periodic_rows.hpp"
@@ -43,7 +43,7 @@ Points random_points(int count, const std::function<Vector(double, double)>& map
     return points;
 }
 
-// 60 % in one corner cell: more neighbours than the list's first capacity.
+// 60 % in one corner cell.
 Points clustered_points() {
     Points points = random_points(160, [](double u, double v) { return Vector(u, v); });
     const Points corner = random_points(240, [](double u, double v) { return Vector(0.05 * u, 0.05 * v); });
@@ -134,15 +134,13 @@ void expect_lists_match(const Points& points, std::array<bool, 2> periodic, int 
     Domain domain = unit_domain;
     domain.periodic = periodic;
     PeriodicRows rows;
-    rows.rebuild(particles, domain, reach);
-    NeighbourList fluid_list(width);
-    NeighbourList dummy_list(width);
-    const CellGrid all(rows.x(), rows.y(), rows.all_rows(), reach);
-    const CellGrid fluid(rows.x(), rows.y(), rows.fluid_rows(), reach);
+    rows.rebuild(particles, domain, reach, reach);
+    NeighbourList fluid_list(width, NeighbourSearch::strips);
+    NeighbourList dummy_list(width, NeighbourSearch::strips);
     const std::size_t fluid_count = rows.fluid_count();
     const std::size_t count = rows.particle_count();
-    fluid_list.build(rows.x(), rows.y(), all, 0, fluid_count, rows.padding(), reach);
-    dummy_list.build(rows.x(), rows.y(), fluid, fluid_count, count, rows.padding(), reach);
+    fluid_list.build(rows.x(), rows.y(), rows.all_rows(), 0, fluid_count, rows.padding(), reach);
+    dummy_list.build(rows.x(), rows.y(), rows.fluid_rows(), fluid_count, count, rows.padding(), reach);
     const Lists of_fluid = listed(rows, fluid_list, width, 0, fluid_count);
     const Lists of_dummies = listed(rows, dummy_list, width, fluid_count, count);
     const Lists expected_of_fluid = brute_force(particles, domain, false);
@@ -174,7 +172,7 @@ TEST(NeighbourList, OfRandomPoints) {
     expect_lists_match_everywhere(random_points(400, [](double u, double v) { return Vector(u, v); }));
 }
 
-TEST(NeighbourList, OfPointsInOneCornerOutgrowsItsFirstCapacity) {
+TEST(NeighbourList, OfPointsInOneCorner) {
     expect_lists_match_everywhere(clustered_points());
 }
 
@@ -191,11 +189,6 @@ TEST(NeighbourList, OfFewerPointsThanLanesAndOfOne) {
     expect_lists_match_everywhere(
         random_points(4, [](double u, double v) { return Vector(0.1 * u, 0.1 * v); }));
     expect_lists_match_everywhere({unit_domain.lower});
-}
-
-TEST(CellGrid, WithoutPointsVisitsNothing) {
-    const CellGrid grid({}, {}, {}, reach);
-    grid.visit_near(0, 0, [](std::uint32_t) { FAIL() << "there is no point"; });
 }
 
 } // namespace

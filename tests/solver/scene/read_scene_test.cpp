@@ -40,6 +40,18 @@ TEST_F(ReadScene, ReadsAxesAsNamed) {
     EXPECT_EQ(periodic("xy"), (std::array<bool, 2>{true, true}));
 }
 
+TEST_F(ReadScene, ReadsTheNeighbourSearchAsNamed) {
+    EXPECT_EQ(read(full_scene).numerics.neighbour_search, NeighbourSearch::strips);
+    EXPECT_EQ(read(full_scene, {"numerics.neighbour_search=cells"}).numerics.neighbour_search,
+              NeighbourSearch::cells);
+    EXPECT_EQ(read(full_scene, {"numerics.neighbour_search=plane_sweep"}).numerics.neighbour_search,
+              NeighbourSearch::plane_sweep);
+    EXPECT_NE(
+        refusal(replaced(full_scene, "sound_speed = 10", "sound_speed = 10\nneighbour_search = \"tree\""))
+            .find("allowed one of \"strips\", \"cells\", \"plane_sweep\""),
+        std::string::npos);
+}
+
 TEST_F(ReadScene, TakesTheSchemesDefaultsUnlessSaid) {
     const Numerics paper = read(full_scene, {"scene.scheme=wang2014"}).numerics;
     EXPECT_EQ(paper.density_diffusion, 0);
