@@ -1,5 +1,7 @@
 #include "solver/loop/displacement_watch.hpp"
 
+#include "solver/loop/pack.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,6 +35,41 @@ std::ptrdiff_t into_range(std::ptrdiff_t cell, std::ptrdiff_t count, bool period
         cell -= count;
     }
     return cell;
+}
+
+struct Range {
+    double low, high;
+};
+
+// Least and largest now[k] - start[k]. By hand: the compiler does not vectorise a loop of a few dozen numbers
+// well.
+Range moved_range(const double* now, const double* start, std::uint32_t count) {
+    constexpr std::uint32_t lanes = native_lanes<double>;
+    using Numbers = Pack<double, lanes>;
+    Range range{infinity, -infinity};
+    const auto include = [&](double moved) {
+        range.low = moved < range.low ? moved : range.low;
+        range.high = moved > range.high ? moved : range.high;
+    };
+    if (count < lanes) {
+        for (std::uint32_t k = 0; k < count; ++k) {
+            include(now[k] - start[k]);
+        }
+        return range;
+    }
+    Numbers low = Numbers{} + infinity;
+    Numbers high = Numbers{} - infinity;
+    for (std::uint32_t k = 0; k < count; k += lanes) {
+        const std::uint32_t at = std::min(k, count - lanes); // the last one overlaps
+        const Numbers moved = load<Numbers>(now + at) - load<Numbers>(start + at);
+        low = moved < low ? moved : low;
+        high = moved > high ? moved : high;
+    }
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+        include(low[lane]);
+        include(high[lane]);
+    }
+    return range;
 }
 
 } // namespace
@@ -94,18 +131,12 @@ void DisplacementWatch::start(const Particles& particles, std::span<const double
 
 DisplacementWatch::Box DisplacementWatch::displacements(const FluidParticles& fluid, const Run& run) const {
     Box box{};
-    const auto range = [&](const std::vector<double>& now, std::span<const double> start, double& lowest,
-                           double& highest) {
-        double low = infinity;
-        double high = -infinity;
-#pragma omp simd reduction(min : low) reduction(max : high)
-        for (std::uint32_t i = run.first; i < run.last; ++i) {
-            const double moved = now[i] - start[i];
-            low = moved < low ? moved : low;
-            high = moved > high ? moved : high;
-        }
-        lowest = low;
-        highest = high;
+    const auto range = [&](const std::vector<double>& now, std::span<const double> start, double& low,
+                           double& high) {
+        const auto moved =
+            moved_range(now.data() + run.first, start.data() + run.first, run.last - run.first);
+        low = moved.low;
+        high = moved.high;
     };
     range(fluid.x, start_x_, box.low_x, box.high_x);
     range(fluid.y, start_y_, box.low_y, box.high_y);

@@ -8,12 +8,12 @@
 
 namespace slurry {
 
-// What the neighbour lists cost. Counts are those of the fluid's lists as they are now, after a pass.
+// What the neighbour lists cost. Counts are those of the fluid's lists as they are now.
 struct ListStatistics {
     long rebuilds = 0;         // since the start
     std::size_t pairs = 0;     // nearer than the kernel's support and the skin when the lists were made
     std::size_t evaluated = 0; // with the padding that fills the vectors' lanes
-    std::size_t useful = 0;    // nearer than the kernel's support now
+    std::size_t useful = 0;    // nearer than the kernel's support in the last pass; 0 before the first
     std::size_t bytes = 0;     // of all lists and rows
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 // Extra reach of the neighbour lists, in particle spacings: a longer skin means fewer rebuilds and longer
 // lists.
-const double skin_ratio = std::getenv("SKIN") ? atof(std::getenv("SKIN")) : 0.25;
+constexpr double skin_ratio = 0.35;
 
 // At least `least`; of a periodic axis, the length over a whole number.
 double cell_size(double least, double length, bool periodic) {

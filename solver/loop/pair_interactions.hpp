@@ -109,8 +109,10 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     [[nodiscard]] ListStatistics list_statistics(const Particles& particles) const override {
         ListStatistics statistics = neighbourhood_.statistics();
         statistics.bytes += rows_.bytes();
-        statistics.useful = count_pairs<Real, W, Kernel, ForceView>(
-            neighbourhood_.of_fluid(), rows_.rows().data(), particles.fluid.size());
+        if (rows_.rows().size() == neighbourhood_.periodic().row_count()) {
+            statistics.useful = count_pairs<Real, W, Kernel, ForceView>(
+                neighbourhood_.of_fluid(), rows_.rows().data(), particles.fluid.size());
+        }
         return statistics;
     }
 

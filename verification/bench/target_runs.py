@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import subprocess
 from pathlib import Path
@@ -11,7 +12,7 @@ import numpy as np
 
 from verification.bench.session import Measured, Session, finite
 from verification.bench.speed_error import point
-from verification.case import load_case
+from verification.case import Variant
 from verification.compare import DataError
 from verification.execute import Outcome
 from verification.run import REPOSITORY
@@ -67,12 +68,13 @@ def avx2_build(session: Session) -> Path | None:
 
 
 def steady(session: Session) -> list[dict[str, Any]]:
-    """The whole runs of every variant, with their errors."""
+    """The runs of every variant up to its steady state, with their errors."""
     plan = session.plan["target_runs"]["steady"]
-    jobs = [
-        session.job(plan["case"], variant.name, plan["spacing"], threads=plan["threads"])
-        for variant in load_case(plan["case"]).variants
-    ]
+    jobs = []
+    for variant, end in plan["end_times"].items():
+        job = session.job(plan["case"], variant, plan["spacing"], threads=plan["threads"])
+        ended = Variant(variant, {**job.variant.set, "output.end_time": end})
+        jobs.append(dataclasses.replace(job, variant=ended))
     return [point(measured) for measured in session.measure_all(jobs, session.errors)]
 
 
