@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parent
 SCHEMES = ("default", "wang2014")
 LEVELS = ("gate", "paper")
 CHECK_KEYS = {
-    "quantity", "at", "field", "metric", "tolerance", "kind", "why", "order_band", "subtract_mean", "times",
+    "quantity", "at", "field", "metric", "tolerance", "kind", "why", "order_band", "order_floor", "subtract_mean", "times",
     "from", "against", "variants", "known_shortfall",
 }  # fmt: skip
 
@@ -116,6 +116,7 @@ def _checks(entry: Mapping[str, Any], keys: tuple[str, str, str], case: str) -> 
             kind=entry["kind"],
             why=entry["why"],
             order_band=(float(band[0]), float(band[1])) if band else None,
+            order_floor=float(entry.get("order_floor", 0.0)),
             subtract_mean=entry.get("subtract_mean", False),
             time=time,
             from_time=select(entry.get("from"), keys),

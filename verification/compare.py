@@ -37,6 +37,7 @@ class Check:
     kind: str
     why: str
     order_band: tuple[float, float] | None = None
+    order_floor: float = 0.0  # errors that are no larger at any spacing have nothing left to converge
     subtract_mean: bool = False
     time: float | None = None  # s; None: the end
     from_time: float | None = None  # s; series only: the start of the window

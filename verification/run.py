@@ -49,7 +49,8 @@ def judge(outcomes: Sequence[Outcome], references: References, level: str) -> li
             if run.finest:
                 if check.kind in ("exact", "finite-element"):
                     result.order = observed_order(*zip(*points, strict=True))
-                if len(points) < 3:  # --spacings: too few for an order
+                converged = all(value <= check.order_floor for _, value in points)  # False for NaN
+                if converged or len(points) < 3:  # --spacings: too few for an order
                     result.check = dataclasses.replace(check, order_band=None)
             results.append(result)
         judged.append(results)

@@ -2,10 +2,10 @@
 // The quintic spline (Eq. 2.4) without its square root: a polynomial in v = 1 - (r / 3h)^2, cut off at v = 0.
 //   h^4 (dW/dr) / r = -v^5 (c_0 + c_1 v + ... + c_4 v^4),   h^2 W its integral
 // The coefficients are a least-squares fit to the spline's force, sqrt(s) times the slope over s = (r/h)^2 in
-// (0, 9), under two constraints that the spline meets itself to 1e-3 only or not at all after a fit: W
-// integrates to one, and over a lattice of spacing h, sum V (dW/dr) / r x^2 = -1 as in the continuum, so that
-// pressure gradients and viscosity keep their strength. W differs from the spline by 1.6e-4 of its peak at
-// most.
+// (0, 9), under three constraints. W integrates to one; and over rows of particles, spacing h between them,
+// that have slid past one another, sum V (dW/dr) / r x^2 and y^2 are -1 as in the continuum, so that in a
+// shear flow viscosity and pressure gradients keep their strength (the spline misses this by 9e-5, and by
+// 8e-4 on a lattice; the fit by 2e-4 there).
 #include "solver/loop/pack.hpp"
 
 #include <array>
@@ -15,7 +15,7 @@ namespace slurry {
 struct FittedQuintic {
     static constexpr double support = 3; // in smoothing lengths
     static constexpr std::array<double, 5> coefficients{
-        0.5582606202246452, -2.116688175266718, 4.350818866457998, -3.828849160088498, 1.592834715634629};
+        0.47840900542022774, -1.6525328231500553, 3.371494465400916, -2.9340419077430506, 1.2927729186415602};
 
     // h^2 W, from s = (r/h)^2
     template <class P> static P value(const P& s) {

@@ -54,6 +54,14 @@ def test_a_gate_run_of_everything_passes(solver, tmp_path, capsys):
     assert capsys.readouterr().out.splitlines()[-1] == "40 passed, 0 failed"
 
 
+def test_no_order_is_asked_of_errors_below_the_floor(solver, tmp_path):
+    for error, band in ((1e-5, None), (2e-5, [0.8, 3.0])):  # four times that at the coarsest: below and above 5e-5
+        solver.error = error
+        status, results = verify(tmp_path, "--case", "couette", "--scheme", "default")
+        assert status == 0
+        assert checks_of(results)["velocity at 0.0001 s"]["order_band"] == band
+
+
 def test_coarse_spacings_carry_no_tolerance(solver, tmp_path):
     solver.error = 0.03  # at s = 1; the finest of Couette
     status, results = verify(tmp_path, "--case", "couette", "--scheme", "default")
