@@ -19,8 +19,8 @@ ROOT = Path(__file__).resolve().parent
 SCHEMES = ("default", "wang2014")
 LEVELS = ("gate", "paper")
 CHECK_KEYS = {
-    "quantity", "at", "field", "metric", "tolerance", "kind", "why", "order_band", "order_floor", "subtract_mean", "times",
-    "from", "against", "variants", "known_shortfall",
+    "quantity", "at", "field", "metric", "tolerance", "kind", "why", "order_band", "order_floor",
+    "subtract_mean", "times", "from", "against", "variants", "known_shortfall",
 }  # fmt: skip
 
 

@@ -215,13 +215,13 @@ std::unique_ptr<Interactions> make_pair_interactions(const Scene& scene, LoopWid
 }
 
 // Each in a file of its own, solver/loop/with_<kernel>.cpp: they are long to compile.
-extern template std::unique_ptr<Interactions> make_pair_interactions<class QuinticSpline>(const Scene&,
-                                                                                          LoopWidth);
-extern template std::unique_ptr<Interactions> make_pair_interactions<class WendlandC2>(const Scene&,
-                                                                                       LoopWidth);
-extern template std::unique_ptr<Interactions> make_pair_interactions<class WendlandC4>(const Scene&,
-                                                                                       LoopWidth);
-extern template std::unique_ptr<Interactions> make_pair_interactions<class FittedQuintic>(const Scene&,
-                                                                                          LoopWidth);
+extern template std::unique_ptr<Interactions> make_pair_interactions<struct QuinticSpline>(const Scene&,
+                                                                                           LoopWidth);
+extern template std::unique_ptr<Interactions> make_pair_interactions<struct WendlandC2>(const Scene&,
+                                                                                        LoopWidth);
+extern template std::unique_ptr<Interactions> make_pair_interactions<struct WendlandC4>(const Scene&,
+                                                                                        LoopWidth);
+extern template std::unique_ptr<Interactions> make_pair_interactions<struct FittedQuintic>(const Scene&,
+                                                                                           LoopWidth);
 
 } // namespace slurry

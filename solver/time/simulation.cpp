@@ -54,7 +54,7 @@ void write_list_attributes(ResultFile& file, const Particles& particles, const L
 }
 
 void write_run_attributes(ResultFile& file, const Particles& particles, long steps, double time_step,
-                          int threads, const PhaseClock& clock) {
+                          int threads, const PhaseClock& clock, const ListStatistics& lists) {
     const double seconds = clock.elapsed();
     const auto fluid = static_cast<double>(particles.fluid.size());
     const auto dummies = static_cast<double>(particles.dummies.size());
@@ -72,6 +72,7 @@ void write_run_attributes(ResultFile& file, const Particles& particles, long ste
         std::replace(name.begin(), name.end(), ' ', '_');
         file.set_attribute(name, phase.seconds);
     }
+    write_list_attributes(file, particles, lists);
 }
 
 } // namespace
@@ -108,8 +109,8 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
             progress.update(particles.time, step);
         }
     }
-    write_run_attributes(file, particles, steps, time_step, threads, clock);
-    write_list_attributes(file, particles, interactions->list_statistics(particles));
+    write_run_attributes(file, particles, steps, time_step, threads, clock,
+                         interactions->list_statistics(particles));
     RunSummary summary{file.finish(), steps};
     if (!options.quiet) {
         const auto count = particles.fluid.size() + particles.dummies.size();

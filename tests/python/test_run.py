@@ -55,7 +55,8 @@ def test_a_gate_run_of_everything_passes(solver, tmp_path, capsys):
 
 
 def test_no_order_is_asked_of_errors_below_the_floor(solver, tmp_path):
-    for error, band in ((1e-5, None), (2e-5, [0.8, 3.0])):  # four times that at the coarsest: below and above 5e-5
+    # Four times as large at the coarsest spacing: below and above 5e-5.
+    for error, band in ((1e-5, None), (2e-5, [0.8, 3.0])):
         solver.error = error
         status, results = verify(tmp_path, "--case", "couette", "--scheme", "default")
         assert status == 0

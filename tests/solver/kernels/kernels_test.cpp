@@ -123,7 +123,7 @@ TEST(FittedQuintic, IsCloseToTheSpline) {
         kernel_peak = std::max(kernel_peak, spline.kernel);
         force_peak = std::max(force_peak, -spline.slope * q);
     }
-    EXPECT_LT(kernel, 1.7e-4 * kernel_peak);
+    EXPECT_LT(kernel, 2.1e-4 * kernel_peak);
     EXPECT_LT(force, 1.5e-3 * force_peak);
 }
 
