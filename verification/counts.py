@@ -81,7 +81,6 @@ class Run:
 
 
 SCENES = (
-    Scene("couette", 1e-6, 10.0),
     Scene("rough_channel", 1e-6, 10.0),
     Scene("taylor_green", 0.04, 10.0),
 )

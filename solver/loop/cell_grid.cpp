@@ -38,7 +38,7 @@ void CellGrid::measure(int columns_per_cutoff) {
     double lower_x = infinity;
     double lower_y = infinity;
     double upper_x = -infinity;
-    double upper_y = -infinity;
+    double upper_y = upper_x;
     const auto& candidates = problem_.candidates;
 #pragma omp parallel for schedule(static) reduction(min : lower_x, lower_y) reduction(max : upper_x, upper_y)
     for (const auto index : candidates) {

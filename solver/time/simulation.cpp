@@ -88,7 +88,7 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
     }
     const int threads = useful_threads(options.threads, particles);
     omp_set_num_threads(threads);
-    const auto interactions = make_interactions(scene);
+    const auto sums = make_interactions(scene);
     const long steps = step_count(scene);
     const double time_step = scene.output.end_time / static_cast<double>(steps);
     const double sound_speed = scene.numerics.sound_speed;
@@ -96,10 +96,10 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
     Recorder recorder(scene, region, file, steps, time_step);
     {
         Progress progress(std::cout, progress_style(options.quiet, STDOUT_FILENO), scene.output.end_time);
-        prepare_first_step(particles, *interactions, scene.fluid, sound_speed, clock);
+        prepare_first_step(particles, *sums, scene.fluid, sound_speed, clock);
         recorder.record(particles, 0);
         for (long step = 1; step <= steps; ++step) {
-            advance(particles, *interactions, scene.fluid, sound_speed, time_step, clock);
+            advance(particles, *sums, scene.fluid, sound_speed, time_step, clock);
             const PhaseClock::Scope scope(clock, "output and checks");
             if (step % check_interval == 0 || step == steps) {
                 check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing,
@@ -109,8 +109,7 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
             progress.update(particles.time, step);
         }
     }
-    write_run_attributes(file, particles, steps, time_step, threads, clock,
-                         interactions->list_statistics(particles));
+    write_run_attributes(file, particles, steps, time_step, threads, clock, sums->list_statistics(particles));
     RunSummary summary{file.finish(), steps};
     if (!options.quiet) {
         const auto count = particles.fluid.size() + particles.dummies.size();

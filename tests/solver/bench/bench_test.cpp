@@ -55,14 +55,16 @@ TEST(PairSweeps, LeaveTheNumberOfThreadsAsItWas) {
 
 TEST(Bench, WritesEveryFigure) {
     const PairSweepTime time{"float", "forces", 20.5, 27, 36, 62, 80.5, 0.5, 0.75};
-    const BenchReport report{"the \"fastest\"", 2, {160, 320}, {80, 160}, {time, time}, {{"cells", "uniform", 1000, 2, 0.5}}};
+    const BenchReport report{
+        "the \"fastest\"", 2, {160, 320}, {80, 160}, {time, time}, {{"cells", "uniform", 1000, 2, 0.5}}};
     const std::string json = bench_json(report);
     for (const char* part :
          {R"("processor": "the \"fastest\"", "cores": 2, "instruction_set": ")", R"("lanes": {"float": )",
           R"("fma_peak_gflops": {"float": {"one_core": 160, "all_cores": 320}, "double": {"one_core": 80, )",
           R"({"arithmetic": "float", "sweep": "forces", "ns_per_particle": 20.5, "pairs_useful": 27, )",
           R"("pairs_evaluated": 36, "flops_per_pair": 62, "useful_gflops": 80.5, "share_of_fma_peak": 0.5, )",
-          R"("share_of_port_bound": 0.75})", R"("search": "cells", "set": "uniform", "points": 1000, "threads": 2, "seconds": 0.5)"}) {
+          R"("share_of_port_bound": 0.75})",
+          R"("search": "cells", "set": "uniform", "points": 1000, "threads": 2, "seconds": 0.5)"}) {
         EXPECT_NE(json.find(part), std::string::npos) << part << "\nis not in\n" << json;
     }
     const std::string text = bench_text(report);
