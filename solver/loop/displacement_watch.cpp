@@ -12,14 +12,15 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The first and last cell of a range of positions may be cut short; across a periodic side they are one.
-std::ptrdiff_t first_cell(double lower, double size) {
-    return static_cast<std::ptrdiff_t>(std::floor(lower / size));
+// Bounded, for positions that are not finite: they get a cell, too, and the watchdog finds them.
+std::ptrdiff_t cell_along(double position, double size) {
+    return static_cast<std::ptrdiff_t>(std::min(1e9, std::max(-1e9, std::floor(position / size))));
 }
 
+// The first and last cell of a range of positions may be cut short; across a periodic side they are one.
 std::ptrdiff_t cell_count(double lower, double upper, double size, bool periodic) {
     return periodic ? std::max(std::ptrdiff_t{1}, std::lround((upper - lower) / size))
-                    : first_cell(upper, size) - first_cell(lower, size) + 1;
+                    : cell_along(upper, size) - cell_along(lower, size) + 1;
 }
 
 // Cells beyond a periodic side are those at the other; beyond any other side there is nothing, and the last
@@ -28,13 +29,8 @@ std::ptrdiff_t into_range(std::ptrdiff_t cell, std::ptrdiff_t count, bool period
     if (!periodic) {
         return std::clamp(cell, std::ptrdiff_t{0}, count - 1);
     }
-    while (cell < 0) { // once at most: a division would take longer than all the rest
-        cell += count;
-    }
-    while (cell >= count) {
-        cell -= count;
-    }
-    return cell;
+    // Seldom out of range: a division each time would take longer than all the rest.
+    return cell >= 0 && cell < count ? cell : (cell % count + count) % count;
 }
 
 struct Range {
@@ -90,8 +86,8 @@ double DisplacementWatch::Box::squared_diagonal_with(const Box& other) const {
 }
 
 std::uint32_t DisplacementWatch::cell_of(double x, double y) const {
-    const auto column = static_cast<std::ptrdiff_t>(std::floor(x / size_.x())) - first_column_;
-    const auto row = static_cast<std::ptrdiff_t>(std::floor(y / size_.y())) - first_row_;
+    const auto column = cell_along(x, size_.x()) - first_column_;
+    const auto row = cell_along(y, size_.y()) - first_row_;
     return static_cast<std::uint32_t>(into_range(row, rows_, periodic_y_) * columns_ +
                                       into_range(column, columns_, periodic_x_));
 }
@@ -104,8 +100,8 @@ void DisplacementWatch::start(const Particles& particles, std::span<const double
     periodic_x_ = domain.periodic[0];
     periodic_y_ = domain.periodic[1];
     size_ = cell_size;
-    first_column_ = first_cell(domain.lower.x(), size_.x());
-    first_row_ = first_cell(domain.lower.y(), size_.y());
+    first_column_ = cell_along(domain.lower.x(), size_.x());
+    first_row_ = cell_along(domain.lower.y(), size_.y());
     columns_ = cell_count(domain.lower.x(), domain.upper.x(), size_.x(), periodic_x_);
     rows_ = cell_count(domain.lower.y(), domain.upper.y(), size_.y(), periodic_y_);
     runs_.clear();

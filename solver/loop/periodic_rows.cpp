@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace slurry {
@@ -46,9 +47,14 @@ std::vector<std::uint32_t> strip_order(const std::vector<double>& x, const std::
     }
     const auto strip_of = [&](double position) { return std::floor(position / height); };
     // A position that is not a number, or absurd, is put with the last; the watchdog will find it.
-    const double lowest = strip_of(*std::min_element(y.begin(), y.end()));
-    const double strips = std::clamp(strip_of(*std::max_element(y.begin(), y.end())) - lowest + 1, 1.0,
-                                     static_cast<double>(count));
+    double lower = std::numeric_limits<double>::infinity();
+    double upper = -lower;
+    for (const double position : y) {
+        lower = position < lower ? position : lower;
+        upper = position > upper ? position : upper;
+    }
+    const double lowest = strip_of(lower);
+    const double strips = std::min(static_cast<double>(count), std::max(1.0, strip_of(upper) - lowest + 1));
     std::vector<std::uint32_t> strip(count);
     std::vector<std::size_t> ends(static_cast<std::size_t>(strips) + 1, 0);
     for (std::size_t k = 0; k < count; ++k) {

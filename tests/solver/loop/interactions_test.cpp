@@ -9,6 +9,8 @@
 #include <omp.h>
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 
 namespace slurry::testing {
@@ -183,6 +185,22 @@ TEST(Interactions, StayRightBetweenTwoRebuilds) {
         EXPECT_EQ(kept->list_statistics(particles).rebuilds, 1);
         AllPairs(scene, expected).evaluate();
         expect_same_results(particles, expected, 1e-9);
+    }
+}
+
+// The watchdog looks only now and then; until then such a particle must do no harm.
+TEST(Interactions, CarryPositionsThatAreNotFiniteThroughARebuild) {
+    for (const double lost : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+        for (const Scene& scene : {doubly_periodic(11), flat_channel(11)}) {
+            for (const std::size_t culprit : {0U, 60U, 120U}) {
+                Particles particles = arrange(scene);
+                particles.fluid.x[culprit] = lost;
+                particles.fluid.y[culprit] = -lost;
+                const auto interactions = make_interactions(scene);
+                interactions->refresh_neighbours(particles);
+                EXPECT_EQ(particles.fluid.size(), 121U);
+            }
+        }
     }
 }
 
