@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace slurry {
 
@@ -34,6 +35,16 @@ template <class Key, class Less> void sort_nearly_sorted(std::span<Key> keys, Le
     }
 }
 
+std::pair<double, double> range_without_nan(const std::vector<double>& values) {
+    double lower = std::numeric_limits<double>::infinity();
+    double upper = -lower;
+    for (const double value : values) {
+        lower = value < lower ? value : lower;
+        upper = value > upper ? value : upper;
+    }
+    return {lower, upper};
+}
+
 // Order by strips of the given height, then by x.
 std::vector<std::uint32_t> strip_order(const std::vector<double>& x, const std::vector<double>& y,
                                        double height) {
@@ -47,12 +58,7 @@ std::vector<std::uint32_t> strip_order(const std::vector<double>& x, const std::
     }
     const auto strip_of = [&](double position) { return std::floor(position / height); };
     // A position that is not a number, or absurd, is put with the last; the watchdog will find it.
-    double lower = std::numeric_limits<double>::infinity();
-    double upper = -lower;
-    for (const double position : y) {
-        lower = position < lower ? position : lower;
-        upper = position > upper ? position : upper;
-    }
+    const auto [lower, upper] = range_without_nan(y);
     const double lowest = strip_of(lower);
     const double strips = std::min(static_cast<double>(count), std::max(1.0, strip_of(upper) - lowest + 1));
     std::vector<std::uint32_t> strip(count);
