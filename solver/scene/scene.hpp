@@ -29,9 +29,17 @@ enum class KernelShape : std::uint8_t { quintic, wendland_c2, wendland_c4, fitte
 enum class PressureMean : std::uint8_t { density_weighted, plain };
 // How neighbours are found; the lists do not depend on it.
 enum class NeighbourSearch : std::uint8_t { strips, cells, plane_sweep };
-enum class Arrangement : std::uint8_t { lattice, jittered, relaxed };
+// empty: no fluid at all, discs alone.
+enum class Arrangement : std::uint8_t { lattice, jittered, relaxed, empty };
 enum class InitialVelocity : std::uint8_t { rest, shear, taylor_green };
 enum class FluidSide : std::uint8_t { above, below, left, right };
+// What gravity does to the fluid: nothing, so that pressure is what exceeds the hydrostatic one and discs
+// feel their buoyant weight; or all it does, and discs feel their weight and the fluid's pressure.
+enum class Hydrostatics : std::uint8_t { buoyancy, full };
+enum class SizeDistribution : std::uint8_t { constant, uniform, lognormal, file };
+enum class DiscMotion : std::uint8_t { free, fixed, prescribed };
+// Where the particles of a disc lie: on rings beneath its rim, or on a square lattice (the paper's).
+enum class DiscDummies : std::uint8_t { rings, lattice };
 
 struct Domain {
     Vector lower = Vector::Zero();
@@ -44,8 +52,14 @@ struct Domain {
 struct Fluid {
     double density = 0;                 // kg/m3
     double dynamic_viscosity = 0;       // Pa s
-    Vector body_force = Vector::Zero(); // m/s2, per mass
+    Vector body_force = Vector::Zero(); // m/s2, per mass; on the fluid alone
+    Vector gravity = Vector::Zero();    // m/s2; on discs, and on the fluid as hydrostatics says
+    Hydrostatics hydrostatics = Hydrostatics::buoyancy;
 
+    // What the momentum equation of the fluid has for f, m/s2.
+    [[nodiscard]] Vector acceleration() const {
+        return hydrostatics == Hydrostatics::full ? Vector(body_force + gravity) : body_force;
+    }
     [[nodiscard]] double kinematic_viscosity() const { return dynamic_viscosity / density; }
 };
 
@@ -64,6 +78,7 @@ struct Numerics {
     bool advection_tensor = true;
     PressureMean pressure_mean = PressureMean::density_weighted;
     DummyLayout wall_dummies = DummyLayout::curve;
+    DiscDummies disc_dummies = DiscDummies::rings;
     WallExtrapolation wall_extrapolation = WallExtrapolation::fit;
     WallContinuity wall_continuity = WallContinuity::wall_velocity;
     ParticleVolume particle_volume = ParticleVolume::mass_over_density;
@@ -113,6 +128,38 @@ struct WallScene {
     Vector velocity = Vector::Zero(); // m/s, translation
 };
 
+struct SingleDisc {
+    double radius = 0;                // m
+    Vector position = Vector::Zero(); // m, of the centre
+};
+struct RandomDiscs {
+    int count = 0;              // one of these three is not 0
+    double area_fraction = 0;   // of the fluid's area without discs
+    double weight_fraction = 0; // mass of discs over mass of discs and fluid
+    SizeDistribution sizes = SizeDistribution::constant;
+    double radius = 0;          // m: of all, the mean (uniform) or the median (lognormal)
+    double spread = 0;          // half width over radius (uniform), or deviation of ln(radius) (lognormal)
+    std::filesystem::path file; // CSV of one column of radii, m, to draw from (file)
+    std::vector<double> radii;  // as read
+    double least_distance = 0;  // m, between the rims of two discs, and of a disc and a wall
+    std::uint64_t seed = 1;
+};
+struct DiscScene {
+    std::string name; // those placed at random are name_1, name_2, ...
+    std::variant<SingleDisc, RandomDiscs> placement;
+    double density = 0; // kg/m3
+    DiscMotion motion = DiscMotion::free;
+    Vector velocity = Vector::Zero(); // m/s, at the start, or always when prescribed
+    double spin = 0;                  // rad/s, anticlockwise, likewise
+};
+
+// Repulsion of discs by discs and walls (Eqs. 2.27, 2.28).
+struct Contact {
+    double distance = 0;    // m, between rims, where it begins; 0: two particle spacings
+    double force_scale = 0; // N/m, c of Eq. 2.27; 0: what stops a disc at a fifth of the sound speed
+    double stiffness = 1;   // epsilon of Eq. 2.27: the force at touch is force_scale / stiffness
+};
+
 struct WallProbe { // pressure and shear at evenly spaced points along a wall (they move with the wall)
     std::string wall;
     int points = 100;
@@ -144,6 +191,8 @@ struct Scene {
     Numerics numerics;
     Start start;
     std::vector<WallScene> walls;
+    std::vector<DiscScene> discs;
+    Contact contact;
     std::vector<ProbeScene> probes;
     Output output;
     std::filesystem::path path; // the scene file
