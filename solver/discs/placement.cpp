@@ -78,11 +78,11 @@ class Placement {
         for (const int axis : {0, 1}) {
             const double period = domain_.size()[axis];
             if (domain_.periodic[static_cast<std::size_t>(axis)] && !(needed <= period))
-                throw GeometryError(
-                    fmt::format("disc '{}' meets its own image: the domain is periodic along {} and "
-                                "{:.4g} m long there, the disc and least_distance need {:.4g} m; "
-                                "widen the domain, or make the disc smaller",
-                                member.name, axis == 0 ? 'x' : 'y', period, needed));
+                throw GeometryError(fmt::format(
+                    "disc '{}' meets its own image: the domain is periodic along {} and {:.4g} m long "
+                    "there, the disc and least_distance need {:.4g} m; widen the domain, or make the "
+                    "disc smaller",
+                    member.name, axis == 0 ? 'x' : 'y', period, needed));
         }
     }
 
@@ -111,10 +111,10 @@ class Placement {
         for (const Wall& wall : region_.walls())
             if (const double gap = wall.nearest(rim.centre).distance - rim.radius;
                 !(gap >= -rounding * rim.radius))
-                throw GeometryError(
-                    fmt::format("{}: its rim is {:.4g} m behind wall '{}': move it into the fluid, or "
-                                "make it smaller",
-                                disc, -gap, wall.name()));
+                throw GeometryError(fmt::format(
+                    "{}: its rim is {:.4g} m behind wall '{}': move it into the fluid, or make it "
+                    "smaller",
+                    disc, -gap, wall.name()));
         add(m);
     }
 
@@ -140,16 +140,13 @@ class Placement {
             area += std::numbers::pi * members_[m].rim.radius * members_[m].rim.radius;
             random += members_[m].group->generator != nullptr ? 1 : 0;
         }
-        throw GeometryError(fmt::format("discs '{}': {} of {} random discs have a place after {} tries, all "
-                                        "discs together an area fraction of "
-                                        "{:.3g}, and no room was found for one of radius {:.4g} m: ask for "
-                                        "fewer or smaller discs or a smaller "
-                                        "least_distance; discs at random places, half of least_distance "
-                                        "around each of them counted, fill about "
-                                        "half of an area at most",
-                                        member.group->scene->name, random, wanted,
-                                        tries_at_least + tries_per_disc * wanted, area / region_.fluid_area(),
-                                        member.rim.radius));
+        throw GeometryError(fmt::format(
+            "discs '{}': {} of {} random discs have a place after {} tries, and there is no room for "
+            "one of radius {:.4g} m; all discs have an area fraction of {:.3g}. Ask for fewer or "
+            "smaller discs, or a smaller least_distance: at random places discs fill about half of an "
+            "area at most, half of least_distance around each of them counted",
+            member.group->scene->name, random, wanted, tries_at_least + tries_per_disc * wanted,
+            member.rim.radius, area / region_.fluid_area()));
     }
 
     const Region& region_;
