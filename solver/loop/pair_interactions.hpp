@@ -140,6 +140,7 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
                 store_lanes(dummies.velocity_x, first, result.velocity_x, units_.velocity);
                 store_lanes(dummies.velocity_y, first, result.velocity_y, units_.velocity);
                 store_lanes(dummies.pressure, first, result.pressure, units_.pressure());
+                store_lanes(dummies.normal_velocity, first, result.normal_velocity, units_.velocity);
             });
     }
 

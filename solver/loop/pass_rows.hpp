@@ -134,9 +134,9 @@ template <class Real> class PassRows {
         switch (wall_continuity_) {
         case WallContinuity::extrapolated:
             return extrapolated;
-        case WallContinuity::tangential: {
+        case WallContinuity::solenoidal: {
             const Vector along(dummies.normal_y[d], -dummies.normal_x[d]);
-            return own + along.dot(extrapolated - own) * along;
+            return own + along.dot(extrapolated - own) * along + dummies.normal_velocity[d] * left_of(along);
         }
         case WallContinuity::wall_velocity:
             break;

@@ -126,8 +126,9 @@ const std::vector<Parameter> parameter_table{
      Default::by_scheme<std::string>("fit", "mean"), one_of({"mean", "fit"}),
      "fluid continued to wall particles by kernel means (Eqs. 2.16, 2.17) or by least-squares fits"},
     {"numerics", "", "wall_continuity", member(&Numerics::wall_continuity), "", word("wall_velocity"),
-     one_of({"wall_velocity", "extrapolated", "tangential"}),
-     "velocity of wall particles in the continuity equation; tangential: extrapolated along the wall only"},
+     one_of({"wall_velocity", "extrapolated", "solenoidal"}),
+     "velocity of wall particles in the continuity equation; solenoidal: extrapolated, but for the normal "
+     "part that keeps volumes"},
     {"numerics", "", "particle_volume", member(&Numerics::particle_volume), "",
      Default::by_scheme<std::string>("mass_over_density", "number_density"),
      one_of({"mass_over_density", "number_density"}), "particle volume in the forces"},

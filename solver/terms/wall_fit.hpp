@@ -72,6 +72,7 @@ struct VelocityFit {
         const P c00 = s.a11 * s.a22 - s.a12 * s.a12;
         const P c01 = s.a02 * s.a12 - s.a01 * s.a22;
         const P c02 = s.a01 * s.a12 - s.a02 * s.a11;
+        const P c11 = s.a00 * s.a22 - s.a02 * s.a02;
         const P c12 = s.a01 * s.a02 - s.a00 * s.a12;
         const P c22 = s.a00 * s.a11 - s.a01 * s.a01;
         const P determinant = s.a00 * c00 + s.a01 * c01 + s.a02 * c02;
@@ -86,6 +87,13 @@ struct VelocityFit {
         };
         result.velocity_x = dummy.wall_velocity_x() + continued(s.x0, s.x1, s.x2);
         result.velocity_y = dummy.wall_velocity_y() + continued(s.y0, s.y1, s.y2);
+        // Along the wall the velocity is n (b_0 + b_1 s + ...), so that div v = 0 asks for -b_1 n^2 / 2
+        // across it.
+        const P along0 = s.x0 * dummy.normal_y() - s.y0 * dummy.normal_x();
+        const P along1 = s.x1 * dummy.normal_y() - s.y1 * dummy.normal_x();
+        const P along2 = s.x2 * dummy.normal_y() - s.y2 * dummy.normal_x();
+        const P change = (c01 * along0 + c11 * along1 + c12 * along2) * inverse;
+        result.normal_velocity = Real(-0.5) * change * depth * depth;
         if constexpr (spinning<View, P>) {
             result.velocity_x += dummy.spin() * depth * dummy.normal_y();
             result.velocity_y -= dummy.spin() * depth * dummy.normal_x();
