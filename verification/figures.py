@@ -42,7 +42,8 @@ class Data:
     def result(self, variant: Variant, scheme: str = "default") -> Result:
         e = self.entry(variant.name, scheme)
         folder = self.out / "runs" / self.case.name / e["scheme"] / variant.name / f"{e['spacing_m']:g}"
-        return Result(folder / "result.h5", self.case.scene(variant)["output"]["end_time"])
+        scene = self.case.scene(variant)
+        return Result(folder / "result.h5", scene["output"]["end_time"], scene)
 
     def label(self, variant: str) -> str:
         e = self.entry(variant)
@@ -169,7 +170,9 @@ def _panels(data: Data, key: str, label: str, fitted: bool) -> Figure:
     axes = list(figure.subplots(rows, columns, squeeze=False).flat)
     for axis, quantity in zip(axes, quantities, strict=False):
         _curves(axis, data, quantity, key, fitted)
-        axis.set(title=quantity.replace("_", " "), xlabel=label, ylabel="relative error (-)")
+        unit = next(c["unit"] for c in truths if c["quantity"] == quantity)
+        error = f"error ({unit})" if unit else "relative error (-)"
+        axis.set(title=quantity.replace("_", " "), xlabel=label, ylabel=error)
     for axis in axes[len(quantities) :]:
         axis.set_axis_off()
     return figure
