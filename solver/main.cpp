@@ -53,7 +53,10 @@ Scene scene_of(const Arguments& arguments) {
     std::vector<std::string> overrides = arguments.overrides;
     if (!arguments.spacing.empty())
         overrides.push_back("numerics.particle_spacing=" + arguments.spacing);
-    return read_scene(arguments.scene, overrides);
+    Scene scene = read_scene(arguments.scene, overrides);
+    for (const std::string& warning : scene.warnings)
+        std::cerr << "warning: " << warning << '\n';
+    return scene;
 }
 
 void run(const Arguments& arguments) {

@@ -111,9 +111,5 @@ class Curve {
 
 // The angle from one vector to another, anticlockwise positive, in (-pi, pi].
 double angle_between(const Vector& from, const Vector& to);
-// The vector turned by 90 degrees anticlockwise.
-inline Vector left_of(const Vector& vector) {
-    return {-vector.y(), vector.x()};
-}
 
 } // namespace slurry

@@ -68,6 +68,11 @@ Range moved_range(const double* now, const double* start, std::uint32_t count) {
     return range;
 }
 
+// The place of a dummy, moved by `depth` along its normal.
+Vector toward_rim(const DummyParticles& dummies, std::size_t d, double depth) {
+    return {dummies.x[d] + depth * dummies.normal_x[d], dummies.y[d] + depth * dummies.normal_y[d]};
+}
+
 } // namespace
 
 void DisplacementWatch::Box::include(const Box& other) {
@@ -114,12 +119,18 @@ void DisplacementWatch::start(const Particles& particles, std::span<const double
         runs_.back().last = i + 1;
     }
     wall_cells_.clear();
+    disc_points_.clear();
     const DummyParticles& dummies = particles.dummies;
     for (std::size_t d = 0; d < dummies.size(); ++d) {
-        const double to_wall_x = dummies.depth[d] * dummies.normal_x[d];
-        const double to_wall_y = dummies.depth[d] * dummies.normal_y[d];
-        wall_cells_.push_back({cell_of(x[fluid + d], y[fluid + d]), dummies.wall[d]});
-        wall_cells_.push_back({cell_of(x[fluid + d] + to_wall_x, y[fluid + d] + to_wall_y), dummies.wall[d]});
+        for (const double depth : {0.0, dummies.depth[d]}) {
+            const Vector point = toward_rim(dummies, d, depth);
+            const std::uint32_t cell = cell_of(point.x(), point.y());
+            if (dummies.of_disc(d)) {
+                disc_points_.push_back({cell, d, depth, point});
+            } else {
+                wall_cells_.push_back({cell, dummies.wall[d]});
+            }
+        }
     }
     std::sort(wall_cells_.begin(), wall_cells_.end());
     wall_cells_.erase(std::unique(wall_cells_.begin(), wall_cells_.end()), wall_cells_.end());
@@ -156,6 +167,10 @@ double DisplacementWatch::largest(const Particles& particles) const {
         const Vector moved =
             (particles.time - start_time_) * particles.dummies.wall_drift[static_cast<std::size_t>(of.wall)];
         cells[of.cell].include({moved.x(), moved.x(), moved.y(), moved.y()});
+    }
+    for (const DiscPoint& point : disc_points_) {
+        const Vector moved = toward_rim(particles.dummies, point.dummy, point.depth) - point.start;
+        cells[point.cell].include({moved.x(), moved.x(), moved.y(), moved.y()});
     }
     double largest = 0;
     for (std::ptrdiff_t row = 0; row < rows_; ++row) {

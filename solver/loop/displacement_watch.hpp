@@ -31,6 +31,12 @@ class DisplacementWatch {
     struct Run { // fluid particles in one cell, one after the other in memory
         std::uint32_t first, last, cell;
     };
+    struct DiscPoint { // a particle of a disc, or its nearest point of the rim
+        std::uint32_t cell;
+        std::size_t dummy;
+        double depth; // 0 for the particle itself
+        Vector start;
+    };
     struct WallCell {
         std::uint32_t cell;
         int wall;
@@ -49,6 +55,7 @@ class DisplacementWatch {
     bool periodic_x_ = false, periodic_y_ = false;
     std::vector<Run> runs_;
     std::vector<WallCell> wall_cells_;
+    std::vector<DiscPoint> disc_points_;
 };
 
 } // namespace slurry

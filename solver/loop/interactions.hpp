@@ -33,7 +33,8 @@ class Interactions {
     virtual void compute_volumes(Particles& particles) = 0;
     // Eqs. 2.16 and 2.17, into the dummies' velocity and pressure.
     virtual void extrapolate_to_walls(Particles& particles) = 0;
-    // Eqs. 2.15, 2.19 and 2.20 (without the body force), into fluid.acceleration and fluid.background.
+    // Eqs. 2.15, 2.19 and 2.20 (without the body force), into fluid.acceleration and fluid.background; the
+    // forces on the particles of discs (Eq. 2.23), into dummies.force and dummies.twist.
     virtual void compute_forces(Particles& particles) = 0;
     [[nodiscard]] virtual ListStatistics list_statistics(const Particles& particles) const = 0;
 };

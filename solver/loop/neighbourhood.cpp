@@ -25,13 +25,14 @@ double cell_size(double least, double length, bool periodic) {
 
 Neighbourhood::Neighbourhood(const Scene& scene, double support, double wall_support, int width,
                              std::size_t row_bytes)
-    : domain_(scene.domain), walls_(!scene.walls.empty()),
+    : domain_(scene.domain), walls_(!scene.walls.empty() || !scene.discs.empty()),
       wall_points_(scene.numerics.wall_extrapolation == WallExtrapolation::fit),
       spacing_(scene.numerics.particle_spacing), skin_(skin_ratio * spacing_),
       support_(support * scene.numerics.smoothing_length()),
       wall_support_(wall_support * scene.numerics.smoothing_length()),
       fluid_list_(width, scene.numerics.neighbour_search, row_bytes),
-      dummy_list_(width, scene.numerics.neighbour_search, row_bytes) {}
+      dummy_list_(width, scene.numerics.neighbour_search, row_bytes),
+      disc_list_(width, scene.numerics.neighbour_search, row_bytes) {}
 
 void Neighbourhood::refresh(Particles& particles) {
     if (rebuilds_ > 0) {
@@ -55,6 +56,11 @@ void Neighbourhood::refresh(Particles& particles) {
                       periodic_.padding(), support_ + skin_, cell.y());
     if (walls_) {
         build_dummy_list(particles.dummies);
+    }
+    if (!particles.discs.empty()) {
+        disc_list_.build(periodic_.x(), periodic_.y(), periodic_.fluid_rows(),
+                         periodic_.fluid_count() + particles.dummies.first_of_discs,
+                         periodic_.particle_count(), periodic_.padding(), support_ + skin_);
     }
     ++rebuilds_;
 }
@@ -83,7 +89,7 @@ void Neighbourhood::refuse_flight(const Particles& particles, double displacemen
 
 ListStatistics Neighbourhood::statistics() const {
     return {rebuilds_, fluid_list_.pairs(), fluid_list_.evaluated(), 0,
-            fluid_list_.bytes() + dummy_list_.bytes() + periodic_.bytes()};
+            fluid_list_.bytes() + dummy_list_.bytes() + disc_list_.bytes() + periodic_.bytes()};
 }
 
 } // namespace slurry

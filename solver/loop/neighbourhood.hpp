@@ -20,6 +20,8 @@ class Neighbourhood {
     [[nodiscard]] const PeriodicRows& periodic() const { return periodic_; }
     [[nodiscard]] const NeighbourList& of_fluid() const { return fluid_list_; }
     [[nodiscard]] const NeighbourList& of_dummies() const { return dummy_list_; }
+    // The fluid near the particles of discs.
+    [[nodiscard]] const NeighbourList& of_discs() const { return disc_list_; }
     // All but the useful pairs.
     [[nodiscard]] ListStatistics statistics() const;
 
@@ -32,7 +34,7 @@ class Neighbourhood {
     double spacing_, skin_, support_, wall_support_; // m
     PeriodicRows periodic_;
     DisplacementWatch watch_;
-    NeighbourList fluid_list_, dummy_list_;
+    NeighbourList fluid_list_, dummy_list_, disc_list_;
     long rebuilds_ = 0;
 };
 

@@ -15,6 +15,7 @@
 #include "solver/terms/pressure_force.hpp"
 #include "solver/terms/selection.hpp"
 #include "solver/terms/viscous_force.hpp"
+#include "solver/terms/viscous_twist.hpp"
 #include "solver/terms/wall_extrapolation.hpp"
 #include "solver/terms/wall_fit.hpp"
 
@@ -84,25 +85,30 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
         }
         if (numerics_.wall_extrapolation == WallExtrapolation::fit) {
             rows_.fill_walls(particles);
-            sweep_walls<WallView>(Composition<VelocityFit, PressureFit>{}, particles);
+            if (terms_.discs) {
+                sweep_walls<SpinningWallView>(Composition<VelocityFit, PressureFit>{}, particles);
+            } else {
+                sweep_walls<WallView>(Composition<VelocityFit, PressureFit>{}, particles);
+            }
             return;
         }
-        rows_.fill_forces(particles);
-        sweep_walls<ForceView>(Composition<VelocityExtrapolation, PressureExtrapolation>{}, particles);
+        rows_.fill_means(particles, fluid_.acceleration());
+        sweep_walls<MeanView>(Composition<VelocityExtrapolation, PressureExtrapolation>{}, particles);
         DummyParticles& dummies = particles.dummies;
         for (std::size_t d = 0; d < dummies.size(); ++d) { // Eq. 2.16
-            const Vector& wall_velocity = dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])];
-            dummies.velocity_x[d] = 2 * wall_velocity.x() - dummies.velocity_x[d];
-            dummies.velocity_y[d] = 2 * wall_velocity.y() - dummies.velocity_y[d];
+            dummies.velocity_x[d] = 2 * dummies.solid_velocity_x[d] - dummies.velocity_x[d];
+            dummies.velocity_y[d] = 2 * dummies.solid_velocity_y[d] - dummies.velocity_y[d];
         }
     }
 
     void compute_forces(Particles& particles) override {
         rows_.fill_forces(particles);
         if (terms_.density_weighted_pressure) {
-            forces_from<PressureForce>(particles.fluid);
+            forces_from<PressureForce>(particles);
+            react_to<PressureForce>(particles);
         } else {
-            forces_from<PlainPressureForce>(particles.fluid);
+            forces_from<PlainPressureForce>(particles);
+            react_to<PlainPressureForce>(particles);
         }
     }
 
@@ -126,10 +132,8 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
 
     template <template <class> class View, class Terms> void sweep_walls(Terms terms, Particles& particles) {
         DummyParticles& dummies = particles.dummies;
-        const Vector force = fluid_.body_force / units_.acceleration();
         const ExtrapolationCoefficients<Real> coefficients{
-            static_cast<Real>(particles.fluid.mass / units_.mass()), static_cast<Real>(force.x()),
-            static_cast<Real>(force.y())};
+            static_cast<Real>(particles.fluid.mass / units_.mass())};
         sweep<Real, W, Kernel, View, Extrapolation>(
             terms, neighbourhood_.of_dummies(), rows_.rows(), coefficients,
             [&](std::size_t first, const Extrapolation<P>& result) {
@@ -150,7 +154,7 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     }
 
     template <class Terms> void sweep_rate(Terms terms, FluidParticles& fluid) {
-        const Vector slope = fluid_.body_force / units_.acceleration();
+        const Vector slope = fluid_.acceleration() / units_.acceleration();
         const RateCoefficients<Real> coefficients{static_cast<Real>(numerics_.density_diffusion),
                                                   static_cast<Real>(slope.x()), static_cast<Real>(slope.y())};
         sweep<Real, W, Kernel, RateView, Rate>(terms, neighbourhood_.of_fluid(), rows_.rows(), coefficients,
@@ -160,37 +164,66 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
                                                });
     }
 
-    template <class Pressure> void forces_from(FluidParticles& fluid) {
+    template <class Pressure> void forces_from(Particles& particles) {
         if (terms_.viscosity) {
-            forces_with<Pressure, ViscousForce>(fluid);
+            forces_with<Pressure, ViscousForce>(particles);
         } else {
-            forces_with<Pressure>(fluid);
+            forces_with<Pressure>(particles);
         }
     }
 
-    template <class... Forces> void forces_with(FluidParticles& fluid) {
+    template <class... Forces> void forces_with(Particles& particles) {
         if (terms_.advection_tensor) {
-            sweep_forces(Composition<Forces..., BackgroundPressure, AdvectionTensor>{}, fluid);
+            sweep_forces<Forces..., BackgroundPressure, AdvectionTensor>(particles);
         } else if (terms_.transport_velocity) {
-            sweep_forces(Composition<Forces..., BackgroundPressure>{}, fluid);
+            sweep_forces<Forces..., BackgroundPressure>(particles);
         } else {
-            sweep_forces(Composition<Forces...>{}, fluid);
+            sweep_forces<Forces...>(particles);
         }
     }
 
-    template <class Terms> void sweep_forces(Terms terms, FluidParticles& fluid) {
-        const ForceCoefficients<Real> coefficients{
-            static_cast<Real>(units_.mass() / fluid.mass),
-            static_cast<Real>(fluid_.dynamic_viscosity / units_.dynamic_viscosity()),
-            static_cast<Real>(numerics_.background_pressure_ratio)};
+    [[nodiscard]] ForceCoefficients<Real> force_coefficients(const Particles& particles) const {
+        return {static_cast<Real>(units_.mass() / particles.fluid.mass),
+                static_cast<Real>(fluid_.dynamic_viscosity / units_.dynamic_viscosity()),
+                static_cast<Real>(numerics_.background_pressure_ratio)};
+    }
+
+    template <class... Forces> void sweep_forces(Particles& particles) {
+        FluidParticles& fluid = particles.fluid;
         const double unit = units_.acceleration();
         sweep<Real, W, Kernel, ForceView, Acceleration>(
-            terms, neighbourhood_.of_fluid(), rows_.rows(), coefficients,
+            Composition<Forces...>{}, neighbourhood_.of_fluid(), rows_.rows(), force_coefficients(particles),
             [&](std::size_t first, const Acceleration<P>& result) {
                 store_lanes(fluid.acceleration_x, first, result.x, unit);
                 store_lanes(fluid.acceleration_y, first, result.y, unit);
                 store_lanes(fluid.background_x, first, result.background_x, unit);
                 store_lanes(fluid.background_y, first, result.background_y, unit);
+            });
+    }
+
+    template <class Pressure> void react_to(Particles& particles) {
+        if (terms_.discs && terms_.advection_tensor) {
+            react<Pressure, ViscousForce, ViscousTwist, BackgroundPressure, AdvectionTensor>(particles);
+        } else if (terms_.discs) {
+            react<Pressure, ViscousForce, ViscousTwist>(particles);
+        }
+    }
+
+    // Eq. 2.23: the same sums over the fluid near the particles of the discs. By the terms' symmetry the
+    // forces are those on the fluid, reversed.
+    template <class... Forces> void react(Particles& particles) {
+        DummyParticles& dummies = particles.dummies;
+        const double unit = particles.fluid.mass * units_.acceleration();
+        const std::size_t count = dummies.size() - dummies.first_of_discs;
+        for (auto* array : {&dummies.force_x, &dummies.force_y, &dummies.twist}) {
+            array->resize(count);
+        }
+        sweep<Real, W, Kernel, ForceView, Acceleration>(
+            Composition<Forces...>{}, neighbourhood_.of_discs(), rows_.rows(), force_coefficients(particles),
+            [&](std::size_t first, const Acceleration<P>& result) {
+                store_lanes(dummies.force_x, first, result.x, unit);
+                store_lanes(dummies.force_y, first, result.y, unit);
+                store_lanes(dummies.twist, first, result.twist, unit * units_.length);
             });
     }
 

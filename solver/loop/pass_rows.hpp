@@ -72,10 +72,11 @@ template <class Real> class PassRows {
             });
     }
 
-    // For WallView: a dummy's row lies at its wall point.
+    // For WallView, or SpinningWallView where there are discs: a dummy's row lies at its wall point.
     void fill_walls(const Particles& particles) {
         const FluidParticles& fluid = particles.fluid;
         const DummyParticles& dummies = particles.dummies;
+        const bool spins = !particles.discs.empty();
         fill(
             particles,
             [&](std::size_t i) {
@@ -83,11 +84,38 @@ template <class Real> class PassRows {
                            velocity(fluid.velocity_y[i]), pressure(fluid.pressure[i]), 0, 0, 0);
             },
             [&](std::size_t d) {
-                const Vector& wall = dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])];
-                return row(x(dummies.x[d] + dummies.depth[d] * dummies.normal_x[d]),
-                           y(dummies.y[d] + dummies.depth[d] * dummies.normal_y[d]), dummies.normal_x[d],
-                           dummies.normal_y[d], velocity(wall.x()), velocity(wall.y()),
-                           dummies.depth[d] / units_.length, 0.5 * dummies.curvature[d] * units_.length);
+                const Vector to_wall = dummies.depth[d] * Vector(dummies.normal_x[d], dummies.normal_y[d]);
+                const double spin = dummies.of_disc(d) ? particles.discs[dummies.disc(d)].spin : 0;
+                // As a vector the depth needs a direction, however small it is.
+                const double depth = dummies.depth[d] * per_length_;
+                const double scale = spins ? std::max(depth, 1e-6) : 1;
+                return row(x(dummies.x[d] + to_wall.x()), y(dummies.y[d] + to_wall.y()),
+                           scale * dummies.normal_x[d], scale * dummies.normal_y[d],
+                           velocity(dummies.solid_velocity_x[d] - spin * to_wall.y()),
+                           velocity(dummies.solid_velocity_y[d] + spin * to_wall.x()),
+                           spins ? velocity(spin) * units_.length : depth,
+                           0.5 * dummies.curvature[d] * units_.length);
+            });
+    }
+
+    // For MeanView. `acceleration`: of the fluid by its body force, m/s2.
+    void fill_means(const Particles& particles, const Vector& acceleration) {
+        const FluidParticles& fluid = particles.fluid;
+        const DummyParticles& dummies = particles.dummies;
+        const double per_acceleration = 1 / units_.acceleration();
+        fill(
+            particles,
+            [&](std::size_t i) {
+                return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
+                           velocity(fluid.velocity_y[i]), volume(fluid.volume[i]),
+                           pressure(fluid.pressure[i]), 0, 0);
+            },
+            [&](std::size_t d) {
+                Vector force = per_acceleration * acceleration;
+                if (dummies.of_disc(d)) {
+                    force -= per_acceleration * solid_acceleration(particles, d);
+                }
+                return row(x(dummies.x[d]), y(dummies.y[d]), force.x(), force.y(), 1, 0, 0, 0);
             });
     }
 
@@ -102,8 +130,17 @@ template <class Real> class PassRows {
 
     [[nodiscard]] Vector continuity_velocity(const DummyParticles& dummies, std::size_t d) const {
         return wall_continuity_ == WallContinuity::wall_velocity
-                   ? dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])]
+                   ? Vector(dummies.solid_velocity_x[d], dummies.solid_velocity_y[d])
                    : Vector(dummies.velocity_x[d], dummies.velocity_y[d]);
+    }
+
+    // Of a rigid body at one of its particles, m/s2.
+    static Vector solid_acceleration(const Particles& particles, std::size_t d) {
+        const DummyParticles& dummies = particles.dummies;
+        const Disc& disc = particles.discs[dummies.disc(d)];
+        const Vector arm =
+            (disc.radius - dummies.depth[d]) * Vector(dummies.normal_x[d], dummies.normal_y[d]);
+        return disc.acceleration() + disc.angular_acceleration() * left_of(arm) - disc.spin * disc.spin * arm;
     }
 
     template <class FluidRow, class DummyRow>

@@ -35,7 +35,7 @@ template <class Key, class Less> void sort_nearly_sorted(std::span<Key> keys, Le
     }
 }
 
-std::pair<double, double> range_without_nan(const std::vector<double>& values) {
+std::pair<double, double> range_without_nan(std::span<const double> values) {
     double lower = std::numeric_limits<double>::infinity();
     double upper = -lower;
     for (const double value : values) {
@@ -46,8 +46,7 @@ std::pair<double, double> range_without_nan(const std::vector<double>& values) {
 }
 
 // Order by strips of the given height, then by x.
-std::vector<std::uint32_t> strip_order(const std::vector<double>& x, const std::vector<double>& y,
-                                       double height) {
+std::vector<std::uint32_t> strip_order(std::span<const double> x, std::span<const double> y, double height) {
     struct Key {
         double x;
         std::uint32_t index;
@@ -129,7 +128,13 @@ void sort(Particles& particles, double strip_height) {
     fluid.each_array([&](std::vector<double>& array) { reorder(array, order); });
     reorder(fluid.identity, order);
     DummyParticles& dummies = particles.dummies;
-    const auto dummy_order = strip_order(dummies.x, dummies.y, strip_height);
+    auto dummy_order = strip_order(std::span(dummies.x).first(dummies.first_of_discs),
+                                   std::span(dummies.y).first(dummies.first_of_discs), strip_height);
+    for (const std::uint32_t k :
+         strip_order(std::span(dummies.x).subspan(dummies.first_of_discs),
+                     std::span(dummies.y).subspan(dummies.first_of_discs), strip_height)) {
+        dummy_order.push_back(static_cast<std::uint32_t>(dummies.first_of_discs) + k);
+    }
     dummies.each_array([&](auto& array) { reorder(array, dummy_order); });
 }
 

@@ -5,6 +5,7 @@
 #include "solver/output/xdmf.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <system_error>
@@ -97,6 +98,25 @@ void ResultFile::add_probe_row(std::string_view probe, std::string_view quantity
 void ResultFile::add_probe_constant(std::string_view probe, std::string_view quantity, std::string_view unit,
                                     std::span<const double> values) {
     implementation_->writer.write(fmt::format("/probes/{}/{}", probe, quantity), unit, values);
+}
+
+void ResultFile::begin_disc_sample(double time) {
+    implementation_->writer.append("/discs/time", "s", time);
+}
+
+void ResultFile::add_disc_row(std::string_view quantity, std::string_view unit, std::span<const double> row) {
+    const std::string path = fmt::format("/discs/{}", quantity);
+    implementation_->writer.append(path, unit, row);
+    implementation_->require_as_many_rows_as_times("/discs", path);
+}
+
+void ResultFile::add_disc_constant(std::string_view quantity, std::string_view unit,
+                                   std::span<const double> values) {
+    implementation_->writer.write(fmt::format("/discs/{}", quantity), unit, values);
+}
+
+void ResultFile::name_discs(std::span<const std::string> names) {
+    implementation_->writer.set_attribute("/discs", "names", fmt::format("{}", fmt::join(names, ",")));
 }
 
 void ResultFile::add_snapshot(const Snapshot& snapshot) {

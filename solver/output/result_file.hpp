@@ -48,6 +48,13 @@ class ResultFile {
     void add_probe_constant(std::string_view probe, std::string_view quantity, std::string_view unit,
                             std::span<const double> values);
 
+    // Appends one value per disc to /discs/<quantity>; begin_disc_sample appends to /discs/time.
+    void begin_disc_sample(double time);
+    void add_disc_row(std::string_view quantity, std::string_view unit, std::span<const double> row);
+    // What does not change with time: one value per disc, and the names.
+    void add_disc_constant(std::string_view quantity, std::string_view unit, std::span<const double> values);
+    void name_discs(std::span<const std::string> names);
+
     void add_snapshot(const Snapshot& snapshot); // /snapshots/0000/...
 
     // A number about the run: attribute of /run (fluid_particles, steps, wall_seconds, threads, ...).

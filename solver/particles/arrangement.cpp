@@ -1,5 +1,9 @@
 #include "solver/particles/arrangement.hpp"
 
+#include "solver/discs/clearance.hpp"
+#include "solver/discs/disc_dummies.hpp"
+#include "solver/discs/motion.hpp"
+#include "solver/discs/placement.hpp"
 #include "solver/kernels/quintic_spline.hpp"
 #include "solver/loop/interactions.hpp"
 
@@ -9,13 +13,19 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <span>
 
 namespace slurry {
 
 namespace {
 
-// Moves every point by up to `jitter` spacings along each axis, less where that would bring it to a wall.
-void jitter_points(std::vector<Vector>& points, const Start& start, double spacing, const Region& region) {
+// Moves every point by up to `jitter` spacings along each axis, less where that would bring it to a wall or
+// disc.
+void jitter_points(std::vector<Vector>& points, const Start& start, double spacing, const Region& region,
+                   std::span<const Disc> discs) {
+    const auto free_way = [&](const Vector& point) {
+        return std::min(region.distance(point), clearance(discs, region.domain(), point));
+    };
     const std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)> random(gsl_rng_alloc(gsl_rng_mt19937),
                                                                    gsl_rng_free);
     gsl_rng_set(random.get(), static_cast<unsigned long>(start.seed));
@@ -24,7 +34,7 @@ void jitter_points(std::vector<Vector>& points, const Start& start, double spaci
         const double x = 2 * gsl_rng_uniform(random.get()) - 1;
         const double y = 2 * gsl_rng_uniform(random.get()) - 1;
         const Vector displacement = start.jitter * spacing * Vector(x, y);
-        if (region.distance(point + displacement) > std::min(closest, region.distance(point))) {
+        if (free_way(point + displacement) > std::min(closest, free_way(point))) {
             point += displacement;
         }
     }
@@ -40,7 +50,6 @@ void place_dummies(DummyParticles& dummies, const Scene& scene, const Region& re
     dummies.resize(count);
     std::size_t d = 0;
     for (std::size_t w = 0; w < by_wall.size(); ++w) {
-        dummies.wall_velocity.push_back(region.walls()[w].velocity());
         dummies.wall_drift.push_back(region.walls()[w].displacement(1));
         for (const Dummy& dummy : by_wall[w]) {
             dummies.start_x[d] = dummy.position.x();
@@ -51,11 +60,14 @@ void place_dummies(DummyParticles& dummies, const Scene& scene, const Region& re
             dummies.normal_y[d] = nearest.normal.y();
             dummies.depth[d] = nearest.normal.dot(nearest.position - dummy.position);
             dummies.curvature[d] = nearest.curvature;
+            dummies.solid_velocity_x[d] = region.walls()[w].velocity().x();
+            dummies.solid_velocity_y[d] = region.walls()[w].velocity().y();
             dummies.wall[d] = static_cast<int>(w);
             ++d;
         }
     }
-    dummies.move_to(0);
+    dummies.first_of_discs = count;
+    dummies.move_walls_to(0);
 }
 
 // Lets the background pressure even out the spacing, without inertia, against walls at rest. One iteration
@@ -102,6 +114,27 @@ void set_velocity(FluidParticles& fluid, const Start& start, const Domain& domai
     }
 }
 
+std::vector<Vector> fluid_points(const Scene& scene, const Region& region, std::span<const Disc> discs) {
+    if (scene.start.arrangement == Arrangement::empty) {
+        return {};
+    }
+    const double spacing = scene.numerics.particle_spacing;
+    std::vector<Vector> points = region.lattice_points(spacing);
+    std::erase_if(points, [&](const Vector& point) { return clearance(discs, scene.domain, point) <= 0; });
+    if (scene.start.arrangement != Arrangement::lattice) {
+        jitter_points(points, scene.start, spacing, region, discs);
+    }
+    return points;
+}
+
+double fluid_area(const Region& region, std::span<const Disc> discs) {
+    double area = region.fluid_area();
+    for (const Disc& disc : discs) {
+        area -= disc.area();
+    }
+    return area;
+}
+
 } // namespace
 
 int dummy_layers(const Numerics& numerics) {
@@ -110,11 +143,9 @@ int dummy_layers(const Numerics& numerics) {
 
 Particles arrange_particles(const Scene& scene, const Region& region) {
     Particles particles;
+    particles.discs = make_discs(place_discs(scene, region), scene.fluid);
     const double spacing = scene.numerics.particle_spacing;
-    std::vector<Vector> points = region.lattice_points(spacing);
-    if (scene.start.arrangement != Arrangement::lattice) {
-        jitter_points(points, scene.start, spacing, region);
-    }
+    const std::vector<Vector> points = fluid_points(scene, region, particles.discs);
     FluidParticles& fluid = particles.fluid;
     fluid.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -122,8 +153,10 @@ Particles arrange_particles(const Scene& scene, const Region& region) {
         fluid.y[i] = points[i].y();
         fluid.density[i] = scene.fluid.density;
     }
-    fluid.mass = scene.fluid.density * region.fluid_area() / static_cast<double>(points.size());
+    fluid.mass =
+        scene.fluid.density * fluid_area(region, particles.discs) / static_cast<double>(points.size());
     place_dummies(particles.dummies, scene, region);
+    append_disc_dummies(particles, scene.numerics.disc_dummies, spacing, dummy_layers(scene.numerics));
     if (scene.start.arrangement == Arrangement::relaxed) {
         relax(particles, scene);
     }

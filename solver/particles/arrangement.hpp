@@ -7,7 +7,8 @@
 namespace slurry {
 
 // Fluid particles on a lattice, jittered or relaxed as the scene says, at the reference density, and the
-// dummies of all walls. All fluid particles have the same mass, so that their sum is the fluid's.
+// dummies of all walls and discs. All fluid particles have the same mass, so that their sum is the fluid's.
+// Throws GeometryError (see place_discs).
 Particles arrange_particles(const Scene& scene, const Region& region);
 
 // Layers of dummies that complete the kernel's support: the first fluid row is half a spacing from the wall,

@@ -14,8 +14,8 @@ void DummyParticles::resize(std::size_t count) {
     each_array([count](auto& array) { array.resize(count); });
 }
 
-void DummyParticles::move_to(double time) {
-    for (std::size_t d = 0; d < size(); ++d) {
+void DummyParticles::move_walls_to(double time) {
+    for (std::size_t d = 0; d < first_of_discs; ++d) {
         const Vector& drift = wall_drift[static_cast<std::size_t>(wall[d])];
         x[d] = start_x[d] + drift.x() * time;
         y[d] = start_y[d] + drift.y() * time;

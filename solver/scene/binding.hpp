@@ -28,10 +28,16 @@ template <class Part, class AnyScene> auto& part_of(AnyScene& scene, [[maybe_unu
         return scene.output;
     } else if constexpr (std::is_same_v<Part, WallScene>) {
         return scene.walls[index];
+    } else if constexpr (std::is_same_v<Part, DiscScene>) {
+        return scene.discs[index];
+    } else if constexpr (std::is_same_v<Part, Contact>) {
+        return scene.contact;
     } else if constexpr (std::is_same_v<Part, ProbeScene>) {
         return scene.probes[index];
     } else if constexpr (is_alternative<Part, Shape>) {
         return std::get<Part>(scene.walls[index].shape);
+    } else if constexpr (is_alternative<Part, decltype(DiscScene::placement)>) {
+        return std::get<Part>(scene.discs[index].placement);
     } else {
         return std::get<Part>(scene.probes[index].kind);
     }

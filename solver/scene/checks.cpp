@@ -1,5 +1,6 @@
 #include "solver/scene/checks.hpp"
 
+#include "solver/scene/disc_checks.hpp"
 #include "solver/scene/refusal.hpp"
 
 #include <algorithm>
@@ -49,12 +50,35 @@ void check_domain(const Scene& scene, const Places& places) {
     }
 }
 
-void check_start(const Start& start, const Places& places) {
+void check_start(const Scene& scene, const Places& places) {
+    const Start& start = scene.start;
+    if (start.arrangement == Arrangement::empty && scene.discs.empty()) {
+        refuse(places.of("start.arrangement"), R"("empty" in a scene without discs)",
+               R"(fluid ("lattice", "jittered", "relaxed"), or discs in [[discs]])");
+    }
+    if (start.arrangement == Arrangement::empty && start.velocity != InitialVelocity::rest) {
+        refuse(places.of("start.velocity"), R"(a start velocity with start.arrangement = "empty")",
+               R"("rest": there is no fluid; discs have a velocity of their own)");
+    }
     if ((start.velocity == InitialVelocity::rest) != (start.speed == 0)) {
         refuse(places.of("start.speed"), fmt::format("start.speed = {}", start.speed),
                start.velocity == InitialVelocity::rest
                    ? R"(0 with start.velocity = "rest"; for another speed "shear" or "taylor_green")"
                    : R"(any other speed; 0 only with start.velocity = "rest")");
+    }
+}
+
+void check_gravity(const Scene& scene, const Places& places) {
+    for (const int axis : {0, 1}) {
+        if (scene.domain.periodic[static_cast<std::size_t>(axis)] && scene.fluid.gravity[axis] != 0) {
+            const char name = axis == 0 ? 'x' : 'y';
+            refuse(places.of("fluid.gravity"),
+                   fmt::format("fluid.gravity = {} in a domain that is periodic along {}",
+                               text_of(scene.fluid.gravity), name),
+                   fmt::format(
+                       "0 along {}, where nothing ends the fall; fluid.body_force drives a periodic flow",
+                       name));
+        }
     }
 }
 
@@ -157,12 +181,15 @@ const std::string& Places::of(std::string address) const {
 
 void check_scene(const Scene& scene, const Places& places) {
     check_unique(scene.walls, "walls", places);
+    check_unique(scene.discs, "discs", places);
     check_unique(scene.probes, "probes", places);
     check_domain(scene, places);
-    check_start(scene.start, places);
+    check_start(scene, places);
+    check_gravity(scene, places);
     for (const WallScene& wall : scene.walls) {
         check_wall(wall, places);
     }
+    check_discs(scene, places);
     for (const ProbeScene& probe : scene.probes) {
         check_probe(probe, scene, places);
     }

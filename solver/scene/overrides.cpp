@@ -65,7 +65,7 @@ const Parameter& declared(const Override& change) {
         nearest_path.insert(nearest_path.find('.'), "." + name);
     }
     refuse(change.place, fmt::format("the unknown path {}", printable(path)),
-           "table.key=value, or walls.NAME.key=value and probes.NAME.key=value", nearest_path);
+           "table.key=value, or in walls, discs and probes table.NAME.key=value", nearest_path);
 }
 
 Entry& find_or_add(NodeTable& table, const std::string& key, const Override& change) {

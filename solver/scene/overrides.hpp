@@ -7,8 +7,8 @@
 namespace slurry {
 
 // Sets one `table.key=value` or `walls.NAME.key=value` in a document whose tables check_structure has
-// accepted. Throws SceneError naming the override: no '=', an unknown path, no such wall or probe, no TOML
-// value.
+// accepted. Throws SceneError naming the override: no '=', an unknown path, no such wall, disc or probe, no
+// TOML value.
 void apply_override(Node& document, const std::string& text);
 
 // Throws SceneError at an unknown table, or at one that is not a table or an array of tables as declared.

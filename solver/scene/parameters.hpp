@@ -51,8 +51,8 @@ struct Default {
     }
 };
 
-// Access to the member of a scene that holds a key. The index is that of the wall or probe, and unused
-// elsewhere. A choice is its position among the choices here.
+// Access to the member of a scene that holds a key. The index is that of the wall, disc or probe, and
+// unused elsewhere. A choice is its position among the choices here.
 struct Binding {
     Kind kind;
     std::function<Value(const Scene&, std::size_t)> get;
@@ -61,7 +61,7 @@ struct Binding {
 
 struct Parameter {
     std::string_view section;
-    std::string_view variant; // the shape or kind that has this key, empty when all have
+    std::string_view variant; // the shape, placement or kind that has this key, empty when all have
     std::string_view key;
     Binding binding;
     std::string_view unit; // SI, empty for none

@@ -2,6 +2,8 @@
 
 #include "solver/scene/refusal.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,7 +14,7 @@
 namespace slurry {
 namespace {
 
-constexpr std::size_t largest_profile = std::size_t{64} << 20U;
+constexpr std::size_t largest_file = std::size_t{64} << 20U;
 constexpr std::string_view blanks = " \t\r";
 
 std::string_view trimmed(std::string_view text) {
@@ -29,14 +31,46 @@ std::optional<double> finite_number(std::string_view text) {
                                                                         : std::nullopt;
 }
 
-std::optional<Vector> point(std::string_view line) {
-    const std::size_t comma = line.find(',');
-    if (comma == std::string_view::npos) {
-        return std::nullopt;
+template <std::size_t Columns> std::optional<std::array<double, Columns>> numbers_of(std::string_view line) {
+    std::array<double, Columns> numbers{};
+    for (std::size_t column = 0; column < Columns; ++column) {
+        const bool last = column + 1 == Columns;
+        const std::size_t comma = last ? line.size() : line.find(',');
+        const auto number =
+            comma == std::string_view::npos ? std::nullopt : finite_number(trimmed(line.substr(0, comma)));
+        if (!number) {
+            return std::nullopt;
+        }
+        numbers[column] = *number;
+        line.remove_prefix(last ? comma : comma + 1);
     }
-    const auto x = finite_number(trimmed(line.substr(0, comma)));
-    const auto y = finite_number(trimmed(line.substr(comma + 1)));
-    return x && y ? std::optional<Vector>(Vector(*x, *y)) : std::nullopt;
+    return numbers;
+}
+
+// Calls take(numbers, here) for each line that is not blank; here() names the line.
+template <std::size_t Columns, class Take>
+void for_each_row(const std::filesystem::path& path, const std::string& place, std::string_view allowed,
+                  Take take) {
+    const std::string text = read_bounded_file(path, largest_file, place);
+    const std::string name = printable(path.string());
+    std::string_view rest = text;
+    if (rest.starts_with("\xEF\xBB\xBF")) { // spreadsheets begin UTF-8 files with this mark
+        rest.remove_prefix(3);
+    }
+    for (std::size_t number = 1; !rest.empty(); ++number) {
+        const std::string_view whole = rest.substr(0, rest.find('\n'));
+        rest.remove_prefix(std::min(whole.size() + 1, rest.size()));
+        const std::string_view line = trimmed(whole.substr(0, whole.find('#')));
+        if (line.empty()) {
+            continue;
+        }
+        const auto here = [&] { return fmt::format("{}:{}", name, number); };
+        const auto numbers = numbers_of<Columns>(line);
+        if (!numbers) {
+            refuse(here(), fmt::format("\"{}\"", printable(line)), allowed);
+        }
+        take(*numbers, here);
+    }
 }
 
 } // namespace
@@ -61,35 +95,34 @@ std::string read_bounded_file(const std::filesystem::path& path, std::size_t lim
 }
 
 std::vector<Vector> read_profile(const std::filesystem::path& path, const std::string& place) {
-    const std::string text = read_bounded_file(path, largest_profile, place);
-    const std::string name = printable(path.string());
     std::vector<Vector> points;
-    std::string_view rest = text;
-    if (rest.starts_with("\xEF\xBB\xBF")) { // spreadsheets begin UTF-8 files with this mark
-        rest.remove_prefix(3);
-    }
-    for (std::size_t number = 1; !rest.empty(); ++number) {
-        const std::string_view whole = rest.substr(0, rest.find('\n'));
-        rest.remove_prefix(std::min(whole.size() + 1, rest.size()));
-        const std::string_view line = trimmed(whole.substr(0, whole.find('#')));
-        if (line.empty()) {
-            continue;
+    const auto take = [&](const std::array<double, 2>& point, const auto& here) {
+        if (!points.empty() && point[0] <= points.back().x()) {
+            refuse(here(), fmt::format("x = {} after {}", point[0], points.back().x()), "ascending x");
         }
-        const std::optional<Vector> next = point(line);
-        if (!next) {
-            refuse(fmt::format("{}:{}", name, number), fmt::format("\"{}\"", printable(line)),
-                   "two finite numbers x, y (m), or # before a comment");
-        }
-        if (!points.empty() && next->x() <= points.back().x()) {
-            refuse(fmt::format("{}:{}", name, number),
-                   fmt::format("x = {} after {}", next->x(), points.back().x()), "ascending x");
-        }
-        points.push_back(*next);
-    }
+        points.emplace_back(point[0], point[1]);
+    };
+    for_each_row<2>(path, place, "two finite numbers x, y (m), or # before a comment", take);
     if (points.size() < 2) {
-        refuse(place, fmt::format("{} with {} points", name, points.size()), "at least 2");
+        refuse(place, fmt::format("{} with {} points", printable(path.string()), points.size()),
+               "at least 2");
     }
     return points;
+}
+
+std::vector<double> read_radii(const std::filesystem::path& path, const std::string& place) {
+    std::vector<double> radii;
+    const auto take = [&](const std::array<double, 1>& radius, const auto& here) {
+        if (!(radius[0] > 0)) {
+            refuse(here(), fmt::format("the radius {}", radius[0]), "a number > 0 (m)");
+        }
+        radii.push_back(radius[0]);
+    };
+    for_each_row<1>(path, place, "one finite number, a radius (m), or # before a comment", take);
+    if (radii.empty()) {
+        refuse(place, fmt::format("{} without radii", printable(path.string())), "at least one");
+    }
+    return radii;
 }
 
 } // namespace slurry

@@ -2,6 +2,7 @@
 
 #include "solver/scene/checks.hpp"
 #include "solver/scene/conversion.hpp"
+#include "solver/scene/disc_checks.hpp"
 #include "solver/scene/document.hpp"
 #include "solver/scene/overrides.hpp"
 #include "solver/scene/profile.hpp"
@@ -105,21 +106,32 @@ class Reader {
     Scene scene_;
 };
 
-// Reads the profiles, whose paths are relative to the scene's folder and may not leave it.
-void load_profiles(Scene& scene, const Places& places) {
+// The file as this process finds it: paths are relative to the scene's folder and may not leave it.
+std::filesystem::path located(const std::filesystem::path& file, const Scene& scene,
+                              const std::string& place) {
+    const std::filesystem::path normal = file.lexically_normal();
+    if (file.is_relative() && (normal.empty() || *normal.begin() == "..")) {
+        refuse(place, fmt::format("the file \"{}\"", printable(file.string())),
+               "a file in the scene's folder or below, or an absolute path");
+    }
+    return file.is_relative() ? scene.path.parent_path() / normal : normal;
+}
+
+void load_files(Scene& scene, const Places& places) {
     for (WallScene& wall : scene.walls) {
-        auto* profile = std::get_if<ProfileShape>(&wall.shape);
-        if (profile == nullptr) {
-            continue;
+        if (auto* profile = std::get_if<ProfileShape>(&wall.shape)) {
+            const std::string& place = places.of("walls." + wall.name + ".file");
+            profile->file = located(profile->file, scene, place);
+            profile->points = read_profile(profile->file, place);
         }
-        const std::string& place = places.of("walls." + wall.name + ".file");
-        const std::filesystem::path normal = profile->file.lexically_normal();
-        if (profile->file.is_relative() && (normal.empty() || *normal.begin() == "..")) {
-            refuse(place, fmt::format("the file \"{}\"", printable(profile->file.string())),
-                   "a file in the scene's folder or below, or an absolute path");
+    }
+    for (DiscScene& discs : scene.discs) {
+        auto* random = std::get_if<RandomDiscs>(&discs.placement);
+        if (random != nullptr && random->sizes == SizeDistribution::file) {
+            const std::string& place = places.of("discs." + discs.name + ".file");
+            random->file = located(random->file, scene, place);
+            random->radii = read_radii(random->file, place);
         }
-        profile->file = profile->file.is_relative() ? scene.path.parent_path() / normal : normal;
-        profile->points = read_profile(profile->file, place);
     }
 }
 
@@ -136,9 +148,9 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
     Scene scene = Reader(document, places).read();
     scene.path = path;
     check_scene(scene, places);
-    scene.resolved_text =
-        resolved_text(scene); // before the profiles' paths are made relative to this process
-    load_profiles(scene, places);
+    scene.resolved_text = resolved_text(scene); // before paths are made relative to this process
+    load_files(scene, places);
+    scene.warnings = check_disc_sizes(scene, places);
     return scene;
 }
 

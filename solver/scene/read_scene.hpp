@@ -11,7 +11,7 @@
 namespace slurry {
 
 // A scene that is refused; what() is one line: `place: found ..., allowed ...[, nearest known key ...]`,
-// where the place is file:line:column, file:line in a profile, or the `--set key=value` at fault.
+// where the place is file:line:column, file:line in a CSV file, or the `--set key=value` at fault.
 class SceneError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -23,7 +23,7 @@ class SceneError : public std::runtime_error {
 [[nodiscard]] Scene read_scene(const std::filesystem::path& path,
                                std::span<const std::string> overrides = {});
 
-// The same for a text that `path` names in messages, and whose folder profiles are relative to.
+// The same for a text that `path` names in messages, and whose folder the files it names are relative to.
 [[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& path,
                                 std::span<const std::string> overrides = {});
 

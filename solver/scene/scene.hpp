@@ -197,6 +197,7 @@ struct Scene {
     Output output;
     std::filesystem::path path; // the scene file
     std::string resolved_text;  // the scene as TOML with every key, defaults and --set values filled in
+    std::vector<std::string> warnings; // one line each: what is allowed, but unlikely to be meant
 };
 
 } // namespace slurry

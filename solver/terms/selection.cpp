@@ -9,12 +9,13 @@ TermSelection select_terms(const Scene& scene) {
     TermSelection terms;
     terms.gradient_correction = numerics.gradient_correction;
     terms.density_diffusion = numerics.density_diffusion > 0;
-    terms.hydrostatic_diffusion = terms.density_diffusion && scene.fluid.body_force.squaredNorm() > 0;
+    terms.hydrostatic_diffusion = terms.density_diffusion && scene.fluid.acceleration().squaredNorm() > 0;
     terms.density_weighted_pressure = numerics.pressure_mean == PressureMean::density_weighted;
     terms.viscosity = scene.fluid.dynamic_viscosity > 0;
     terms.transport_velocity = numerics.background_pressure_ratio > 0;
     terms.advection_tensor = terms.transport_velocity && numerics.advection_tensor;
-    terms.walls = !scene.walls.empty();
+    terms.discs = !scene.discs.empty();
+    terms.walls = !scene.walls.empty() || terms.discs;
     return terms;
 }
 
@@ -28,7 +29,7 @@ std::vector<TermReason> explain_terms(const Scene& scene) {
         {"density diffusion (Molteni & Colagrossi 2009)", terms.density_diffusion,
          fmt::format("numerics.density_diffusion = {}", numerics.density_diffusion)},
         {"hydrostatic part of the density diffusion", terms.hydrostatic_diffusion,
-         terms.hydrostatic_diffusion ? "fluid.body_force is not zero"
+         terms.hydrostatic_diffusion ? "a body force acts on the fluid"
                                      : "no body force, or no density diffusion"},
         {"pressure force (2.15)", true, "always"},
         {"density weights of the mean pressure (2.15)", terms.density_weighted_pressure,
@@ -43,7 +44,10 @@ std::vector<TermReason> explain_terms(const Scene& scene) {
                                   : std::string("no transport velocity")},
         {numerics.wall_extrapolation == WallExtrapolation::fit ? "wall fit (in place of 2.16, 2.17)"
                                                                : "wall extrapolation (2.16, 2.17)",
-         terms.walls, fmt::format("{} wall(s)", scene.walls.size())},
+         terms.walls,
+         fmt::format("{} wall(s), {} disc(s) or groups of discs", scene.walls.size(), scene.discs.size())},
+        {"rigid discs (2.23 to 2.28)", terms.discs,
+         fmt::format("{} [[discs]]", scene.discs.empty() ? "no" : std::to_string(scene.discs.size()))},
     };
 }
 

@@ -16,7 +16,8 @@ struct TermSelection {
     bool viscosity = false;
     bool transport_velocity = false;
     bool advection_tensor = false;
-    bool walls = false;
+    bool walls = false; // or discs: dummies
+    bool discs = false;
 };
 
 struct TermReason {

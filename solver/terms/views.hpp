@@ -53,6 +53,7 @@ template <class P> struct ForceView {
 template <class P> struct Acceleration {
     P x, y;                       // of the momentum equation
     P background_x, background_y; // by the background pressure
+    P twist; // of a disc's particle: torque per mass beyond that of the force at its place
 };
 template <class Real> struct ForceCoefficients {
     Real inverse_mass;
@@ -77,15 +78,39 @@ template <class P> struct WallView {
     const P& pressure() const { return field[4]; }
 };
 
+// The same where solids turn: the row of a dummy has its depth as a vector along the normal, to make room for
+// the spin.
+template <class P> struct SpinningWallView : WallView<P> {
+    P normal_x() const { return this->field[2] * inverse_depth(); }
+    P normal_y() const { return this->field[3] * inverse_depth(); }
+    P depth() const {
+        return (this->field[2] * this->field[2] + this->field[3] * this->field[3]) * inverse_depth();
+    }
+    P inverse_depth() const {
+        return inverse_square_root(P(this->field[2] * this->field[2] + this->field[3] * this->field[3]));
+    }
+    const P& spin() const { return this->field[6]; }
+};
+
+// Kernel means. A dummy's row holds the force per mass that the fluid feels in the frame of the solid there.
+template <class P> struct MeanView {
+    Fields<P> field;
+    const P& x() const { return field[0]; }
+    const P& y() const { return field[1]; }
+    const P& velocity_x() const { return field[2]; }
+    const P& velocity_y() const { return field[3]; }
+    const P& force_x() const { return field[2]; } // f - a_wall
+    const P& force_y() const { return field[3]; }
+    const P& volume() const { return field[4]; }
+    const P& pressure() const { return field[5]; }
+};
+
 // Extrapolation to dummies: v_f and p_f averaged with the kernel as weight.
 template <class P> struct Extrapolation {
     P velocity_x, velocity_y; // Shepard mean of the fluid's velocity
     P pressure;
     P kernel_sum; // 0: no fluid within reach, and the means are 0
 };
-template <class Real> struct ExtrapolationCoefficients {
-    Real mass;
-    Real force_x, force_y; // f - a_wall
-};
+template <class Real> struct ExtrapolationCoefficients { Real mass; };
 
 } // namespace slurry

@@ -8,14 +8,15 @@ namespace slurry {
 // sum_f v_f W_df / sum_f W_df; the caller reflects it about the wall's velocity (Eq. 2.16).
 struct VelocityExtrapolation {
     template <class P> struct Sums { P kernel{}, velocity_x{}, velocity_y{}; };
-    template <class P, class View>
-    static void add(Sums<P>& sums, const Pair<P>& pair, const View& /*unused*/, const View& fluid) {
+    template <class P>
+    static void add(Sums<P>& sums, const Pair<P>& pair, const MeanView<P>& /*unused*/,
+                    const MeanView<P>& fluid) {
         sums.kernel += pair.kernel;
         sums.velocity_x += pair.kernel * fluid.velocity_x();
         sums.velocity_y += pair.kernel * fluid.velocity_y();
     }
-    template <class P, class View, class Real>
-    static void finish(const Sums<P>& sums, const View& /*unused*/,
+    template <class P, class Real>
+    static void finish(const Sums<P>& sums, const MeanView<P>& /*unused*/,
                        const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
         const P zero{};
         const P inverse = sums.kernel > zero ? 1 / sums.kernel : zero;
@@ -29,8 +30,8 @@ struct VelocityExtrapolation {
 struct PressureExtrapolation {
     template <class P> struct Sums { P weight{}, pressure{}, lever_x{}, lever_y{}; };
     template <class P>
-    static void add(Sums<P>& sums, const Pair<P>& pair, const ForceView<P>& /*unused*/,
-                    const ForceView<P>& fluid) {
+    static void add(Sums<P>& sums, const Pair<P>& pair, const MeanView<P>& /*unused*/,
+                    const MeanView<P>& fluid) {
         const P number_weight = pair.kernel / fluid.volume();
         sums.weight += pair.kernel;
         sums.pressure += pair.kernel * fluid.pressure();
@@ -38,11 +39,11 @@ struct PressureExtrapolation {
         sums.lever_y += number_weight * pair.dy;
     }
     template <class P, class Real>
-    static void finish(const Sums<P>& sums, const ForceView<P>& /*unused*/,
+    static void finish(const Sums<P>& sums, const MeanView<P>& dummy,
                        const ExtrapolationCoefficients<Real>& coefficients, Extrapolation<P>& result) {
         const P zero{};
-        const P total = sums.pressure + coefficients.mass * (coefficients.force_x * sums.lever_x +
-                                                             coefficients.force_y * sums.lever_y);
+        const P total = sums.pressure +
+                        coefficients.mass * (dummy.force_x() * sums.lever_x + dummy.force_y() * sums.lever_y);
         result.pressure = sums.weight > zero ? total / sums.weight : zero;
     }
 };

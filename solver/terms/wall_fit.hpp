@@ -5,21 +5,25 @@
 // A kernel mean of the fluid, reflected, has the slope of the fluid's velocity at the wall but the wrong sign
 // of its curvature, so that the viscous force on the first row of particles is wrong wherever the velocity is
 // not linear. The fits continue the polynomials of the fluid through the wall instead:
-//   velocity - V_wall = n (b_0 + b_1 s + b_2 n)     no slip at n = 0, exactly
+//   velocity - V_wall = n (b_0 + b_1 s + b_2 n)     no slip at n = 0, exactly (V_wall: the rigid motion)
 //   pressure          = c_0 + c_1 s + c_2 n
 // with n the distance from the (parabolic) wall and s the offset along it, and weights
 // (1 - (r / 3h)^2)^2, wide enough for two rows of particles in a gap to decide on b_2.
 #include "solver/loop/pair.hpp"
 #include "solver/terms/views.hpp"
 
+#include <type_traits>
+
 namespace slurry {
 
 inline constexpr double wall_fit_support = 3; // in smoothing lengths
 
+template <class View, class P> inline constexpr bool spinning = std::is_same_v<View, SpinningWallView<P>>;
+
 // Wall coordinates and weight of a fluid particle, seen from the wall point of a dummy.
 template <class P> struct WallOffset { P along, across, weight; };
 
-template <class P> WallOffset<P> wall_offset(const Pair<P>& pair, const WallView<P>& dummy) {
+template <class P, class View> WallOffset<P> wall_offset(const Pair<P>& pair, const View& dummy) {
     const P across = -(pair.dx * dummy.normal_x() + pair.dy * dummy.normal_y());
     const P along = pair.dy * dummy.normal_x() - pair.dx * dummy.normal_y();
     const P remaining = positive_part(1 - (along * along + across * across) *
@@ -32,8 +36,8 @@ struct VelocityFit {
         P a00{}, a01{}, a02{}, a11{}, a12{}, a22{}; // normal equations of n, n s, n^2
         P x0{}, x1{}, x2{}, y0{}, y1{}, y2{};       // their right sides for both components
     };
-    template <class P>
-    static void add(Sums<P>& sums, const Pair<P>& pair, const WallView<P>& dummy, const WallView<P>& fluid) {
+    template <class P, class View>
+    static void add(Sums<P>& sums, const Pair<P>& pair, const View& dummy, const View& fluid) {
         const WallOffset<P> at = wall_offset(pair, dummy);
         const P f0 = at.across;
         const P f1 = at.across * at.along;
@@ -47,8 +51,12 @@ struct VelocityFit {
         sums.a11 += w1 * f1;
         sums.a12 += w1 * f2;
         sums.a22 += w2 * f2;
-        const P velocity_x = fluid.velocity_x() - dummy.wall_velocity_x();
-        const P velocity_y = fluid.velocity_y() - dummy.wall_velocity_y();
+        P velocity_x = fluid.velocity_x() - dummy.wall_velocity_x();
+        P velocity_y = fluid.velocity_y() - dummy.wall_velocity_y();
+        if constexpr (spinning<View, P>) { // the pair's offset points from the particle to the wall point
+            velocity_x -= dummy.spin() * pair.dy;
+            velocity_y += dummy.spin() * pair.dx;
+        }
         sums.x0 += w0 * velocity_x;
         sums.x1 += w1 * velocity_x;
         sums.x2 += w2 * velocity_x;
@@ -56,9 +64,9 @@ struct VelocityFit {
         sums.y1 += w1 * velocity_y;
         sums.y2 += w2 * velocity_y;
     }
-    template <class P, class Real>
-    static void finish(const Sums<P>& s, const WallView<P>& dummy,
-                       const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
+    template <class P, class View, class Real>
+    static void finish(const Sums<P>& s, const View& dummy, const ExtrapolationCoefficients<Real>& /*unused*/,
+                       Extrapolation<P>& result) {
         const P zero{};
         // Cofactors of the rows for b_0 and b_2; too few particles for a parabola leave the straight line.
         const P c00 = s.a11 * s.a22 - s.a12 * s.a12;
@@ -78,6 +86,10 @@ struct VelocityFit {
         };
         result.velocity_x = dummy.wall_velocity_x() + continued(s.x0, s.x1, s.x2);
         result.velocity_y = dummy.wall_velocity_y() + continued(s.y0, s.y1, s.y2);
+        if constexpr (spinning<View, P>) {
+            result.velocity_x += dummy.spin() * depth * dummy.normal_y();
+            result.velocity_y -= dummy.spin() * depth * dummy.normal_x();
+        }
     }
 };
 
@@ -86,8 +98,8 @@ struct PressureFit {
         P m0{}, ms{}, mn{}, mss{}, msn{}, mnn{}; // normal equations of 1, s, n
         P p0{}, ps{}, pn{};                      // their right side
     };
-    template <class P>
-    static void add(Sums<P>& sums, const Pair<P>& pair, const WallView<P>& dummy, const WallView<P>& fluid) {
+    template <class P, class View>
+    static void add(Sums<P>& sums, const Pair<P>& pair, const View& dummy, const View& fluid) {
         const WallOffset<P> at = wall_offset(pair, dummy);
         const P ws = at.weight * at.along;
         const P wn = at.weight * at.across;
@@ -101,9 +113,9 @@ struct PressureFit {
         sums.ps += ws * fluid.pressure();
         sums.pn += wn * fluid.pressure();
     }
-    template <class P, class Real>
-    static void finish(const Sums<P>& s, const WallView<P>& dummy,
-                       const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
+    template <class P, class View, class Real>
+    static void finish(const Sums<P>& s, const View& dummy, const ExtrapolationCoefficients<Real>& /*unused*/,
+                       Extrapolation<P>& result) {
         const P zero{};
         const P c00 = s.mss * s.mnn - s.msn * s.msn;
         const P c01 = s.mn * s.msn - s.ms * s.mnn;

@@ -126,6 +126,7 @@ void Recorder::record_series(const Particles& particles) {
     file_.add_sample("mean_density", "kg/m3", totals.mean_density);
     file_.add_sample("largest_speed", "m/s", totals.largest_speed);
     file_.add_sample("largest_density_error", "1", totals.largest_density_error);
+    record_discs(particles);
     const ParticleFinder finder(fluid.view(), scene_.domain, scene_.numerics.particle_spacing);
     for (const ProbeScene& probe : scene_.probes) {
         if (const auto* point = std::get_if<PointProbe>(&probe.kind)) {
@@ -136,6 +137,46 @@ void Recorder::record_series(const Particles& particles) {
             file_.add_probe_row(probe.name, "velocity_y", "m/s", std::span(&values.velocity_y, 1));
         }
     }
+}
+
+void Recorder::record_discs(const Particles& particles) {
+    if (particles.discs.empty()) {
+        return;
+    }
+    const auto row_of = [&](auto&& quantity) {
+        std::vector<double> row;
+        for (const Disc& disc : particles.discs) {
+            row.push_back(quantity(disc));
+        }
+        return row;
+    };
+    const auto add = [&](const char* name, const char* unit, auto&& quantity) {
+        file_.add_disc_row(name, unit, row_of(quantity));
+    };
+    const auto add_constant = [&](const char* name, const char* unit, auto&& quantity) {
+        file_.add_disc_constant(name, unit, row_of(quantity));
+    };
+    if (particles.time == 0) {
+        add_constant("radius", "m", [](const Disc& disc) { return disc.radius; });
+        add_constant("mass", "kg/m", [](const Disc& disc) { return disc.mass; });
+        add_constant("moment_of_inertia", "kg m", [](const Disc& disc) { return disc.moment_of_inertia; });
+        add_constant("density", "kg/m3", [](const Disc& disc) { return disc.mass / disc.area(); });
+        std::vector<std::string> names;
+        std::ranges::transform(particles.discs, std::back_inserter(names), &Disc::name);
+        file_.name_discs(names);
+    }
+    file_.begin_disc_sample(particles.time);
+    add("position_x", "m", [](const Disc& disc) { return disc.position.x(); });
+    add("position_y", "m", [](const Disc& disc) { return disc.position.y(); });
+    add("angle", "rad", [](const Disc& disc) { return disc.angle; });
+    add("velocity_x", "m/s", [](const Disc& disc) { return disc.velocity.x(); });
+    add("velocity_y", "m/s", [](const Disc& disc) { return disc.velocity.y(); });
+    add("spin", "rad/s", [](const Disc& disc) { return disc.spin; });
+    add("force_x", "N/m", [](const Disc& disc) { return disc.force.x(); });
+    add("force_y", "N/m", [](const Disc& disc) { return disc.force.y(); });
+    add("torque", "N", [](const Disc& disc) { return disc.torque; });
+    add("contact_force_x", "N/m", [](const Disc& disc) { return disc.contact_force.x(); });
+    add("contact_force_y", "N/m", [](const Disc& disc) { return disc.contact_force.y(); });
 }
 
 void Recorder::record_walls_and_grids(const Particles& particles) {

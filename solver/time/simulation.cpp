@@ -1,5 +1,6 @@
 #include "solver/time/simulation.hpp"
 
+#include "solver/discs/contact.hpp"
 #include "solver/loop/interactions.hpp"
 #include "solver/output/phase_clock.hpp"
 #include "solver/output/progress.hpp"
@@ -28,9 +29,8 @@ namespace {
 constexpr long checks_per_run = 50;
 
 // Steps of equal length that end exactly at the end time.
-long step_count(const Scene& scene) {
-    return std::max(
-        1L, static_cast<long>(std::ceil(scene.output.end_time / largest_time_step(scene) * (1 - 1e-12))));
+long step_count(const Scene& scene, double time_step) {
+    return std::max(1L, static_cast<long>(std::ceil(scene.output.end_time / time_step * (1 - 1e-12))));
 }
 
 // Waking a thread takes as long as the pairs of some hundred particles. The answer is the same for any
@@ -51,6 +51,16 @@ void write_list_attributes(ResultFile& file, const Particles& particles, const L
     file.set_attribute(
         "bytes_per_particle",
         static_cast<double>(lists.bytes + particles.fluid.bytes() + particles.dummies.bytes()) / count);
+}
+
+void write_disc_attributes(ResultFile& file, const Particles& particles, const DiscContacts& contacts) {
+    if (particles.discs.empty()) {
+        return;
+    }
+    file.set_attribute("discs", static_cast<double>(particles.discs.size()));
+    file.set_attribute("least_gap", contacts.least_gap());
+    file.set_attribute("greatest_overlap", std::max(0.0, -contacts.least_gap()));
+    file.set_attribute("first_contact_time", contacts.first_contact_time());
 }
 
 void write_run_attributes(ResultFile& file, const Particles& particles, long steps, double time_step,
@@ -89,17 +99,19 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
     const int threads = useful_threads(options.threads, particles);
     omp_set_num_threads(threads);
     const auto sums = make_interactions(scene);
-    const long steps = step_count(scene);
+    DiscContacts contacts(scene, region);
+    const long steps =
+        step_count(scene, largest_time_step(scene, contacts.highest_frequency(particles.discs)));
     const double time_step = scene.output.end_time / static_cast<double>(steps);
-    const double sound_speed = scene.numerics.sound_speed;
+    Forces forces{*sums, contacts, scene.fluid, scene.numerics.sound_speed};
     const long check_interval = std::max(1L, steps / checks_per_run);
     Recorder recorder(scene, region, file, steps, time_step);
     {
         Progress progress(std::cout, progress_style(options.quiet, STDOUT_FILENO), scene.output.end_time);
-        prepare_first_step(particles, *sums, scene.fluid, sound_speed, clock);
+        prepare_first_step(particles, forces, clock);
         recorder.record(particles, 0);
         for (long step = 1; step <= steps; ++step) {
-            advance(particles, *sums, scene.fluid, sound_speed, time_step, clock);
+            advance(particles, forces, time_step, clock);
             const PhaseClock::Scope scope(clock, "output and checks");
             if (step % check_interval == 0 || step == steps) {
                 check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing,
@@ -109,6 +121,7 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
             progress.update(particles.time, step);
         }
     }
+    write_disc_attributes(file, particles, contacts);
     write_run_attributes(file, particles, steps, time_step, threads, clock, sums->list_statistics(particles));
     RunSummary summary{file.finish(), steps};
     if (!options.quiet) {
@@ -122,10 +135,14 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
 std::string describe_scene(const Scene& scene) {
     const Region region(scene);
     const Particles particles = arrange_particles(scene, region);
-    std::string text = fmt::format("fluid particles   {}\ndummy particles   {}\ntime step         {:.4g} s\n"
-                                   "steps             {}\nneighbour reach   {:.4g} m\nterms\n",
-                                   particles.fluid.size(), particles.dummies.size(), largest_time_step(scene),
-                                   step_count(scene), 3 * scene.numerics.smoothing_length());
+    const double time_step =
+        largest_time_step(scene, DiscContacts(scene, region).highest_frequency(particles.discs));
+    std::string text =
+        fmt::format("fluid particles   {}\ndummy particles   {}\ndiscs             {}\n"
+                    "time step         {:.4g} s\nsteps             {}\n"
+                    "neighbour reach   {:.4g} m\nterms\n",
+                    particles.fluid.size(), particles.dummies.size(), particles.discs.size(), time_step,
+                    step_count(scene, time_step), 3 * scene.numerics.smoothing_length());
     for (const TermReason& term : explain_terms(scene)) {
         text += fmt::format("  {:4} {:48} {}\n", term.runs ? "on" : "off", term.term, term.reason);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace slurry {
 
@@ -12,11 +13,19 @@ inline double largest_time_step(const Scene& scene) {
     const Numerics& numerics = scene.numerics;
     const double h = numerics.smoothing_length();
     const double viscosity = scene.fluid.kinematic_viscosity();
-    const double force = scene.fluid.body_force.norm();
+    const double force = scene.fluid.acceleration().norm();
     const double unlimited = std::numeric_limits<double>::infinity();
     return std::min({numerics.acoustic_cfl * h / numerics.sound_speed,
                      viscosity > 0 ? numerics.viscous_cfl * h * h / viscosity : unlimited,
                      force > 0 ? numerics.force_cfl * std::sqrt(h / force) : unlimited});
+}
+
+// The same where discs may touch: a step of theirs resolves the stiffest contact.
+inline double largest_time_step(const Scene& scene, double contact_frequency) {
+    constexpr double share_of_period = 1.0 / 25;
+    const double fluid = largest_time_step(scene);
+    return contact_frequency > 0 ? std::min(fluid, share_of_period * 2 * std::numbers::pi / contact_frequency)
+                                 : fluid;
 }
 
 } // namespace slurry

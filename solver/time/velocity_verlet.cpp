@@ -1,5 +1,6 @@
 #include "solver/time/velocity_verlet.hpp"
 
+#include "solver/discs/motion.hpp"
 #include "solver/terms/equation_of_state.hpp"
 
 namespace slurry {
@@ -38,19 +39,20 @@ void update_density(FluidParticles& fluid, std::size_t i, double time) {
     fluid.density[i] += time * fluid.density_rate[i];
 }
 
-// The walls keep pace with the fluid.
-void move_walls(Particles& particles, double time) {
+// Walls and discs keep pace with the fluid.
+void move_solids(Particles& particles, double time) {
     particles.time += time;
-    particles.dummies.move_to(particles.time);
+    particles.dummies.move_walls_to(particles.time);
+    drift_discs(particles, time);
 }
 
-void compute_accelerations(Particles& particles, Interactions& interactions, const Fluid& properties,
-                           double sound_speed, PhaseClock& clock) {
+void compute_accelerations(Particles& particles, Forces& forces, PhaseClock& clock) {
+    Interactions& interactions = forces.interactions;
     FluidParticles& fluid = particles.fluid;
     {
         const PhaseClock::Scope scope(clock, "volumes");
         interactions.compute_volumes(particles);
-        const EquationOfState equation_of_state{properties.density, sound_speed};
+        const EquationOfState equation_of_state{forces.fluid.density, forces.sound_speed};
         for_each(fluid,
                  [&](std::size_t i) { fluid.pressure[i] = equation_of_state.pressure(fluid.density[i]); });
     }
@@ -60,53 +62,60 @@ void compute_accelerations(Particles& particles, Interactions& interactions, con
     }
     const PhaseClock::Scope scope(clock, "forces");
     interactions.compute_forces(particles);
-    if (properties.body_force.squaredNorm() > 0) {
+    const Vector body_force = forces.fluid.acceleration();
+    if (body_force.squaredNorm() > 0) {
         for_each(fluid, [&](std::size_t i) {
-            fluid.acceleration_x[i] += properties.body_force.x();
-            fluid.acceleration_y[i] += properties.body_force.y();
+            fluid.acceleration_x[i] += body_force.x();
+            fluid.acceleration_y[i] += body_force.y();
         });
     }
 }
 
-} // namespace
-
-void prepare_first_step(Particles& particles, Interactions& interactions, const Fluid& fluid,
-                        double sound_speed, PhaseClock& clock) {
-    interactions.refresh_neighbours(particles);
-    compute_accelerations(particles, interactions, fluid, sound_speed, clock);
+void compute_disc_forces(Particles& particles, Forces& forces) {
+    sum_disc_forces(particles, forces.fluid);
+    forces.contacts.compute(particles);
 }
 
-void advance(Particles& particles, Interactions& interactions, const Fluid& fluid, double sound_speed,
-             double time_step, PhaseClock& clock) {
+} // namespace
+
+void prepare_first_step(Particles& particles, Forces& forces, PhaseClock& clock) {
+    forces.interactions.refresh_neighbours(particles);
+    compute_accelerations(particles, forces, clock);
+    compute_disc_forces(particles, forces);
+}
+
+void advance(Particles& particles, Forces& forces, double time_step, PhaseClock& clock) {
     const auto refresh_neighbours = [&] {
         const PhaseClock::Scope scope(clock, "neighbours");
-        interactions.refresh_neighbours(particles);
+        forces.interactions.refresh_neighbours(particles);
     };
-    FluidParticles& fluid_particles = particles.fluid;
+    FluidParticles& fluid = particles.fluid;
     const double half = time_step / 2;
-    for_each(fluid_particles, [&](std::size_t i) {
-        kick(fluid_particles, i, half);
-        shift(fluid_particles, i, half);
-        drift(fluid_particles, i, half);
+    kick_discs(particles, half);
+    for_each(fluid, [&](std::size_t i) {
+        kick(fluid, i, half);
+        shift(fluid, i, half);
+        drift(fluid, i, half);
     });
-    move_walls(particles, half);
+    move_solids(particles, half);
 
     refresh_neighbours();
     {
         const PhaseClock::Scope scope(clock, "density rate");
-        interactions.compute_density_rate(
+        forces.interactions.compute_density_rate(
             particles); // at the half step, so that density is second order in time
     }
-    for_each(fluid_particles, [&](std::size_t i) {
-        update_density(fluid_particles, i, time_step);
-        drift(fluid_particles, i, half); // with the velocity of the half step
+    for_each(fluid, [&](std::size_t i) {
+        update_density(fluid, i, time_step);
+        drift(fluid, i, half); // with the velocity of the half step
     });
-    move_walls(particles, half);
+    move_solids(particles, half);
 
     refresh_neighbours();
-    compute_accelerations(particles, interactions, fluid, sound_speed,
-                          clock); // with the new density and positions
-    for_each(fluid_particles, [&](std::size_t i) { kick(fluid_particles, i, half); });
+    compute_accelerations(particles, forces, clock); // with the new density and positions
+    compute_disc_forces(particles, forces);
+    kick_discs(particles, half);
+    for_each(fluid, [&](std::size_t i) { kick(fluid, i, half); });
 }
 
 } // namespace slurry

@@ -1,5 +1,7 @@
 #include "solver/time/watchdog.hpp"
 
+#include "solver/discs/clearance.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,6 +45,29 @@ std::size_t first_leak(const FluidParticles& fluid, const Region& region, double
     return static_cast<std::size_t>(leaked);
 }
 
+// Where a fluid particle is in a disc, deeper than `tolerance`; the fluid's size if there is none.
+std::size_t first_in_disc(const Particles& particles, const Domain& domain, double tolerance) {
+    const FluidParticles& fluid = particles.fluid;
+    std::size_t first = fluid.size();
+    for (std::size_t i = 0; i < first && !particles.discs.empty(); ++i) {
+        if (clearance(particles.discs, domain, {fluid.x[i], fluid.y[i]}) < -tolerance) {
+            first = i;
+        }
+    }
+    return first;
+}
+
+void check_discs(const Particles& particles, long step) {
+    for (const Disc& disc : particles.discs) {
+        if (!disc.position.allFinite() || !disc.velocity.allFinite() || !std::isfinite(disc.spin)) {
+            throw RunError(
+                fmt::format("step {}, time {:.6g} s, disc '{}': its state is not a finite number; reduce "
+                            "numerics.acoustic_cfl",
+                            step, particles.time, disc.name));
+        }
+    }
+}
+
 } // namespace
 
 void check_particles(const Particles& particles, const Region& region, double reference_density,
@@ -61,6 +86,12 @@ void check_particles(const Particles& particles, const Region& region, double re
                  fmt::format("its density is {:.6g} kg/m3, more than 10 % off", fluid.density[i]),
                  "raise numerics.sound_speed to 10 times the top speed or reduce numerics.acoustic_cfl");
         }
+    }
+    check_discs(particles, step);
+    const std::size_t swallowed = first_in_disc(particles, region.domain(), 0.5 * particle_spacing);
+    if (swallowed < fluid.size()) {
+        stop(particles, swallowed, step, "it is in a disc",
+             "reduce numerics.particle_spacing or numerics.acoustic_cfl");
     }
     const std::size_t leaked = first_leak(fluid, region, particles.time, 0.5 * particle_spacing);
     if (leaked < fluid.size()) {

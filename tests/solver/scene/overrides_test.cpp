@@ -8,11 +8,14 @@ using Overrides = SceneFolder;
 TEST_F(Overrides, SetKeysOfTablesAndOfNamedTables) {
     const Scene scene =
         read(full_scene, {"numerics.acoustic_cfl=0.5", "walls.line.velocity=[1, 0]", " fluid.density = 900 ",
-                          "probes.wall.points=7", "output.snapshot_times=[0.25, 0.5]"});
+                          "probes.wall.points=7", "discs.random.count=9", "contact.stiffness=0.1",
+                          "output.snapshot_times=[0.25, 0.5]"});
     EXPECT_EQ(scene.numerics.acoustic_cfl, 0.5);
     EXPECT_EQ(scene.walls[0].velocity, Vector(1, 0));
     EXPECT_EQ(scene.fluid.density, 900);
     EXPECT_EQ(std::get<WallProbe>(scene.probes[0].kind).points, 7);
+    EXPECT_EQ(std::get<RandomDiscs>(scene.discs[1].placement).count, 9);
+    EXPECT_EQ(scene.contact.stiffness, 0.1);
     EXPECT_EQ(scene.output.snapshot_times, (std::vector<double>{0.25, 0.5}));
     EXPECT_NE(scene.resolved_text.find("acoustic_cfl = 0.5"), std::string::npos);
 }
@@ -34,8 +37,8 @@ TEST_F(Overrides, TakeBareWordsAsStrings) {
 TEST_F(Overrides, AreNamedInRefusals) {
     EXPECT_EQ(refusal(full_scene, {"numerics.acustic_cfl=0.5"}),
               "--set numerics.acustic_cfl=0.5: found the unknown path numerics.acustic_cfl, allowed "
-              "table.key=value, or "
-              "walls.NAME.key=value and probes.NAME.key=value, nearest known key numerics.acoustic_cfl");
+              "table.key=value, or in walls, discs and probes table.NAME.key=value, nearest known key "
+              "numerics.acoustic_cfl");
     EXPECT_EQ(refusal(full_scene, {"numerics.acoustic_cfl=nan"}),
               "--set numerics.acoustic_cfl=nan: found numerics.acoustic_cfl = the number nan, allowed a "
               "number > 0 and "

@@ -45,7 +45,7 @@ Words good_values(const Parameter& parameter) {
     case Kind::text:
         return {"\"some-name\"", "\"cosine\""};
     case Kind::file:
-        return {"\"profile.csv\""};
+        return {parameter.section == "walls" ? "\"profile.csv\"" : "\"radii.csv\""};
     case Kind::choice:
         return choices(allowed);
     case Kind::vector:
@@ -121,6 +121,21 @@ std::pair<std::string, std::size_t> table_of(const Parameter& parameter) {
     return {fmt::format("{}.{}", section->name, *found), static_cast<std::size_t>(found - variants.begin())};
 }
 
+// What else has to change in full_scene for the key to have a meaning.
+Words companions(const Parameter& parameter) {
+    const std::string address = parameter.address();
+    if (address == "discs.area_fraction" || address == "discs.weight_fraction") {
+        return {"discs.random.count=0"};
+    }
+    if (address == "discs.spread") {
+        return {"discs.random.sizes=uniform"};
+    }
+    if (address == "discs.file") {
+        return {"discs.random.sizes=file", "discs.random.radius=0"};
+    }
+    return {};
+}
+
 std::string toml_of(const Parameter& parameter, const Scene& scene, std::size_t index) {
     Value value = parameter.get(scene, index);
     if (parameter.binding.kind == Kind::file) {
@@ -140,27 +155,31 @@ class EveryKey : public SceneFolder, public ::testing::WithParamInterface<Parame
 TEST_P(EveryKey, TakesAGoodValue) {
     const auto [table, index] = table_of(GetParam());
     int accepted = 0;
+    std::string last;
     for (const std::string& value : good_values(GetParam())) {
         const std::string change = fmt::format("{}.{}={}", table, GetParam().key, value);
-        const std::string message = refusal(full_scene, {change});
-        if (message.starts_with("ACCEPTED")) {
+        Words changes = companions(GetParam());
+        changes.push_back(change);
+        last = refusal(full_scene, changes);
+        if (last.starts_with("ACCEPTED")) {
             ++accepted;
-            const Scene scene = read(full_scene, {change});
+            const Scene scene = read(full_scene, changes);
             const std::string expected =
                 GetParam().binding.kind == Kind::number && value.find('.') == std::string::npos ? value + ".0"
                                                                                                 : value;
             EXPECT_EQ(without(toml_of(GetParam(), scene, index), ' '), without(expected, ' ')) << change;
         }
     }
-    EXPECT_GE(accepted, 1) << refusal(
-        full_scene, {fmt::format("{}.{}={}", table, GetParam().key, good_values(GetParam()).front())});
+    EXPECT_GE(accepted, 1) << last;
 }
 
 TEST_P(EveryKey, RefusesBadValues) {
     const auto [table, index] = table_of(GetParam());
     for (const std::string& value : bad_values(GetParam())) {
         const std::string change = fmt::format("{}.{}={}", table, GetParam().key, value);
-        const std::string message = refusal(full_scene, {change});
+        Words changes = companions(GetParam());
+        changes.push_back(change);
+        const std::string message = refusal(full_scene, changes);
         EXPECT_TRUE(message.starts_with("--set " + change.substr(0, 30))) << change << "\n" << message;
         EXPECT_NE(message.find(": found "), std::string::npos) << message;
         EXPECT_NE(message.find(", allowed "), std::string::npos) << message;
@@ -217,14 +236,17 @@ TEST_F(EveryLine, LeftOutIsRefusedOrTakesTheDefault) {
     for (const Line& line : lines_) {
         const std::string message = refusal(with(line, ""));
         const bool is_required = message.find(": found no " + line.section + ".") != std::string::npos;
-        const bool is_speed = line.section == "start"; // velocity and speed go together
-        EXPECT_TRUE(is_required || is_speed || message.starts_with("ACCEPTED")) << text(line) << "\n"
-                                                                                << message;
+        // Velocity and speed go together; a random group needs a count and radii, or other keys in their
+        // stead.
+        const bool depends = line.section == "start" || (line.section == "discs" && line.key == "count") ||
+                             (line.section == "discs" && line.key == "radius");
+        EXPECT_TRUE(is_required || depends || message.starts_with("ACCEPTED")) << text(line) << "\n"
+                                                                               << message;
         const auto declared = [&](const Parameter& parameter) {
             return parameter.section == line.section && parameter.key == line.key &&
                    is_required != parameter.fallback.standard.has_value();
         };
-        EXPECT_TRUE(is_speed || std::ranges::any_of(parameters(), declared)) << text(line) << "\n" << message;
+        EXPECT_TRUE(depends || std::ranges::any_of(parameters(), declared)) << text(line) << "\n" << message;
     }
 }
 

@@ -86,7 +86,7 @@ TEST_F(ReadScene, ResolvedTextReadsBackAsTheSameScene) {
 TEST_F(ReadScene, SaysWhereAndWhatIsAllowed) {
     EXPECT_EQ(refusal(replaced(full_scene, "density", "densty")),
               "scene.toml:6:1: found the unknown key densty in [fluid], allowed density, dynamic_viscosity, "
-              "body_force, nearest known key fluid.density");
+              "body_force, gravity, hydrostatics, nearest known key fluid.density");
     EXPECT_EQ(refusal(replaced(full_scene, "sound_speed = 10", "sound_speed = \"10\"")),
               "scene.toml:11:15: found numerics.sound_speed = the string \"10\", allowed a number > 0 (m/s)");
     EXPECT_EQ(
@@ -101,7 +101,7 @@ TEST_F(ReadScene, SaysWhereAndWhatIsAllowed) {
     EXPECT_EQ(
         refusal(replaced(full_scene, "[fluid]", "[fluids]")),
         "scene.toml:5:2: found the unknown table [fluids], allowed scene, domain, fluid, numerics, start, "
-        "walls, probes, output, nearest known key fluid");
+        "walls, discs, contact, probes, output, nearest known key fluid");
 }
 
 TEST_F(ReadScene, PointsToTheTableThatHasTheKey) {

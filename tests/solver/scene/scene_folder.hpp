@@ -1,5 +1,6 @@
 #pragma once
-// A folder of its own for each test, and a valid scene with a wall of every shape and a probe of every kind.
+// A folder of its own for each test, and a valid scene with a wall of every shape, discs of every placement
+// and a probe of every kind.
 #include "solver/scene/read_scene.hpp"
 
 #include <cstdlib>
@@ -11,7 +12,7 @@
 
 namespace slurry::test {
 
-// Tables stand in the order of the choices of `shape` and `kind`, and are named after them.
+// Tables stand in the order of the choices of `shape`, `placement` and `kind`, and are named after them.
 inline const std::string full_scene = R"([domain]
 lower = [0, 0]
 upper = [4, 4]
@@ -94,6 +95,20 @@ points = [3, 4]
 
 [output]
 end_time = 1
+
+[[discs]]
+name = "single"
+placement = "single"
+density = 1500
+radius = 0.4
+position = [1, 2]
+
+[[discs]]
+name = "random"
+placement = "random"
+density = 2000
+count = 3
+radius = 0.4
 )";
 
 // The text with the first occurrence of a part replaced; the part has to be there.
@@ -111,6 +126,7 @@ class SceneFolder : public ::testing::Test {
         std::string pattern = (std::filesystem::temp_directory_path() / "slurry-scene-XXXXXX").string();
         folder_ = mkdtemp(pattern.data());
         write("profile.csv", "# measured\n0, 0.1\n2, 0.2\n4, 0.1\n");
+        write("radii.csv", "# measured\n0.4\n0.5\n");
     }
     ~SceneFolder() override {
         std::error_code ignored;

@@ -1,0 +1,163 @@
+#include "solver/scene/disc_checks.hpp"
+
+#include "solver/scene/refusal.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace slurry {
+namespace {
+
+constexpr double enough_spacings_across = 6;
+
+std::string address(const DiscScene& disc, std::string_view key) {
+    return fmt::format("discs.{}.{}", disc.name, key);
+}
+
+// name_1, name_2, ... whatever the count, which may follow from an area.
+bool is_member_name(std::string_view name, std::string_view group) {
+    if (!name.starts_with(group) || name.substr(group.size()).size() < 2 || name[group.size()] != '_') {
+        return false;
+    }
+    return name.find_first_not_of("0123456789", group.size() + 1) == std::string_view::npos;
+}
+
+void check_names(const Scene& scene, const Places& places) {
+    for (const DiscScene& group : scene.discs) {
+        if (!std::holds_alternative<RandomDiscs>(group.placement)) {
+            continue;
+        }
+        for (const DiscScene& disc : scene.discs) {
+            if (is_member_name(disc.name, group.name)) {
+                refuse(
+                    places.of(address(disc, "name")), fmt::format("the name \"{}\"", disc.name),
+                    fmt::format("others: the random discs \"{0}\" are named {0}_1, {0}_2, ...", group.name));
+            }
+        }
+    }
+}
+
+void check_count(const Scene& scene, const Places& places) {
+    double count = 0;
+    for (const DiscScene& disc : scene.discs) {
+        const auto* random = std::get_if<RandomDiscs>(&disc.placement);
+        count += random == nullptr ? 1 : random->count;
+        if (!(count <= most_discs)) {
+            refuse(places.of(address(disc, "count")), fmt::format("{:.0f} discs", count),
+                   fmt::format("at most {} in all", most_discs));
+        }
+    }
+}
+
+void check_amount(const DiscScene& disc, const RandomDiscs& random, bool empty, const Places& places) {
+    const int given = (random.count > 0 ? 1 : 0) + (random.area_fraction > 0 ? 1 : 0) +
+                      (random.weight_fraction > 0 ? 1 : 0);
+    if (given != 1) {
+        refuse(
+            places.of("discs." + disc.name),
+            fmt::format("count = {}, area_fraction = {} and weight_fraction = {} of the random discs \"{}\"",
+                        random.count, random.area_fraction, random.weight_fraction, disc.name),
+            "exactly one of the three that is not 0");
+    }
+    if (random.weight_fraction == 1 || (random.weight_fraction > 0 && empty)) {
+        refuse(places.of(address(disc, "weight_fraction")),
+               fmt::format("{} = {}{}", address(disc, "weight_fraction"), random.weight_fraction,
+                           empty ? " in a scene without fluid" : ""),
+               empty ? "0; say count or area_fraction" : "less than 1: the rest is fluid");
+    }
+}
+
+void check_size_keys(const DiscScene& disc, const RandomDiscs& random, const Places& places) {
+    const auto refuse_key = [&](std::string_view key, const std::string& value, std::string_view allowed) {
+        refuse(places.of(address(disc, key)), fmt::format("{} = {}", address(disc, key), value), allowed);
+    };
+    const bool from_file = random.sizes == SizeDistribution::file;
+    if (from_file != (random.radius == 0)) {
+        refuse_key("radius", fmt::format("{}", random.radius),
+                   from_file ? R"(0 with sizes = "file": the radii are the file's)"
+                             : R"(a number > 0 (m); 0 only with sizes = "file")");
+    }
+    if (from_file == random.file.empty()) {
+        refuse_key("file", fmt::format("\"{}\"", printable(random.file.string())),
+                   from_file ? R"(the name of a CSV file with sizes = "file")"
+                             : R"("" unless sizes = "file")");
+    }
+    const bool uniform = random.sizes == SizeDistribution::uniform;
+    const bool spread = uniform || random.sizes == SizeDistribution::lognormal;
+    if (spread != (random.spread > 0) || (uniform && !(random.spread < 1))) {
+        refuse_key("spread", fmt::format("{}", random.spread),
+                   uniform  ? R"(> 0 and < 1 with sizes = "uniform")"
+                   : spread ? R"(> 0 with sizes = "lognormal")"
+                            : R"(0 unless sizes = "uniform" or "lognormal")");
+    }
+}
+
+void check_motion(const DiscScene& disc, const Places& places) {
+    const bool moves = disc.velocity != Vector::Zero();
+    if (disc.motion == DiscMotion::fixed && (moves || disc.spin != 0)) {
+        const std::string key = address(disc, moves ? "velocity" : "spin");
+        refuse(places.of(key), fmt::format("{} of a fixed disc that is not 0", key),
+               R"(0 with motion = "fixed"; for another "free" or "prescribed")");
+    }
+}
+
+void check_contact(const Scene& scene, const Places& places) {
+    const double distance = scene.contact.distance;
+    const double spacing = scene.numerics.particle_spacing;
+    if (distance != 0 && distance < spacing) {
+        refuse(places.of("contact.distance"), fmt::format("contact.distance = {}", distance),
+               fmt::format("0, for two particle spacings, or at least one: {} (m)", spacing));
+    }
+}
+
+// The smallest radius and the key that it comes from.
+std::pair<double, std::string> smallest_radius(const DiscScene& disc) {
+    const auto* random = std::get_if<RandomDiscs>(&disc.placement);
+    if (random == nullptr) {
+        return {std::get<SingleDisc>(disc.placement).radius, address(disc, "radius")};
+    }
+    if (random->sizes == SizeDistribution::file) {
+        return {*std::ranges::min_element(random->radii), address(disc, "file")};
+    }
+    const double least = random->sizes == SizeDistribution::uniform ? 1 - random->spread : 1;
+    return {random->radius * least, address(disc, "radius")};
+}
+
+} // namespace
+
+void check_discs(const Scene& scene, const Places& places) {
+    check_names(scene, places);
+    check_count(scene, places);
+    for (const DiscScene& disc : scene.discs) {
+        if (const auto* random = std::get_if<RandomDiscs>(&disc.placement)) {
+            check_amount(disc, *random, scene.start.arrangement == Arrangement::empty, places);
+            check_size_keys(disc, *random, places);
+        }
+        check_motion(disc, places);
+    }
+    check_contact(scene, places);
+}
+
+std::vector<std::string> check_disc_sizes(const Scene& scene, const Places& places) {
+    std::vector<std::string> warnings;
+    for (const DiscScene& disc : scene.discs) {
+        const auto [radius, key] = smallest_radius(disc);
+        const double across = 2 * radius / scene.numerics.particle_spacing;
+        const std::string found = fmt::format(
+            "a disc \"{}\" of radius {:.4g} (m), {:.3g} particle spacings across", disc.name, radius, across);
+        if (!(across >= fewest_spacings_across * (1 - 1e-9))) {
+            refuse(places.of(key), found,
+                   fmt::format("at least {}: a larger radius, or a particle_spacing of at most {:.4g} (m)",
+                               fewest_spacings_across, 2 * radius / fewest_spacings_across));
+        }
+        if (!(across >= enough_spacings_across * (1 - 1e-9))) {
+            warnings.push_back(fmt::format(
+                "{}: found {}, advised at least {}: a particle_spacing of at most {:.4g} (m)", places.of(key),
+                found, enough_spacings_across, 2 * radius / enough_spacings_across));
+        }
+    }
+    return warnings;
+}
+
+} // namespace slurry
