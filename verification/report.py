@@ -16,23 +16,17 @@ from typing import Any
 
 import matplotlib
 
-from verification import baseline
+from verification import baseline, disc_figures, figures
 from verification.case import ROOT, CaseError, Variant, load_case
 from verification.compare import DataError
-from verification.figures import FIGURES, STYLE, Data
+from verification.figures import STYLE, Data
 from verification.page import Block, Picture, Table, to_html, to_markdown
 from verification.results import standing, summary
 
 MARKERS = ("<!-- results:begin -->", "<!-- results:end -->")
 MAIN_FIGURE = "rough_channel_wafer"
-CAPTIONS = {
-    "wafer": "Pressure and shear on the wafer against the finite-element line (Fig. 7).",
-    "field": "Pressure at the particles, one colour scale: SPH, finite elements, their difference (Fig. 8).",
-    "profiles": "Velocity profiles over time: every fluid particle against the series.",
-    "decay": "Decay of the kinetic energy.",
-    "convergence": "Error against spacing with the fitted order; dotted: the tolerance at the finest.",
-    "cost": "Error against wall time.",
-}
+FIGURES = figures.FIGURES | disc_figures.FIGURES
+CAPTIONS = figures.CAPTIONS | disc_figures.CAPTIONS
 
 
 def percent(value: float | None) -> str:
@@ -165,8 +159,8 @@ def draw(results: dict[str, Any], out: Path, references: Any) -> tuple[list[Pict
     for name in dict.fromkeys(case["case"] for case in results["cases"]):
         case = load_case(name)
 
-        def reference(variant: Variant, case: Any = case) -> Any:
-            return references.of(case, variant)
+        def reference(variant: Variant, reference: str = "", case: Any = case) -> Any:
+            return references.of(case, variant, reference)
 
         data = Data(case, [e for e in results["cases"] if e["case"] == name], out, reference)
         for kind in (*case.figures, "convergence", "cost"):

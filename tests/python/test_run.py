@@ -13,7 +13,6 @@ from verification.case import LEVELS, SCHEMES, CaseError, load_case, load_cases,
 from verification.compare import DataError
 from verification.measure import Result
 
-
 FLOWS = ("couette", "poiseuille", "rough_channel", "taylor_green")  # what the fake solver can do
 DISCS = (
     "disc_array_drag", "disc_conservation", "disc_flight", "disc_pair", "disc_pair_ensemble", "disc_rotating",
