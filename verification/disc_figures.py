@@ -17,6 +17,7 @@ from verification.derived import DERIVED
 from verification.figures import COLOURS, MARKERS, Data
 from verification.phases import PHASES, phases
 from verification.picture import draw
+from verification.truth import of_disc
 
 MOST_LINES = 2  # more variants are drawn as a band
 
@@ -109,7 +110,7 @@ def _panel(axes: Axes, data: Data, panel: Mapping[str, Any]) -> None:
             axes.plot(*run, color=colour, label=data.label(variant.name))
     variant = data.case.variants[0]
     for name in data.case.references(variant.name):
-        truth = data.reference(variant, name).disc(panel["disc"], panel["field"], runs[0][0])
+        truth = of_disc(data.reference(variant, name), panel["disc"], panel["field"], runs[0][0])
         axes.plot(runs[0][0], truth, "--", color=COLOURS[3], label=name.replace("_", " "))
     axes.set(xlabel="time (s)", ylabel=panel["label"], title=panel["disc"])
     axes.legend(fontsize=8)

@@ -40,6 +40,14 @@ def trusted(reference: Reference | None, kind: str) -> Reference:
     return reference
 
 
+def of_disc(reference: Reference, name: str, field: str, times: Array) -> Array:
+    """A disc's field (n,) or (n, 2) at times (n,); of vectors references know the whole only."""
+    vector, _, axis = field.rpartition("_")
+    if axis in ("x", "y"):
+        return np.asarray(reference.disc(name, vector, times))[:, "xy".index(axis)]
+    return np.asarray(reference.disc(name, field, times))
+
+
 def _at_particles(check: Check, result: Result, reference: Reference | None) -> tuple[Array, Array]:
     particles = result.particles(check.time)
     values = getattr(particles, check.field)
@@ -93,7 +101,7 @@ def _over_time(
         return values, _interpolated(samples(others[0], check.at, check.field), times)
     truth = trusted(reference, check.kind)
     if check.at.startswith("disc:"):
-        return values, truth.disc(check.at.removeprefix("disc:"), check.field, times)
+        return values, of_disc(truth, check.at.removeprefix("disc:"), check.field, times)
     return values, np.array([getattr(truth, check.field)(time) for time in times])
 
 

@@ -16,8 +16,8 @@ class Falling:
     error_estimate = 1e-2
 
     def disc(self, name, quantity, t):
-        assert (name, quantity) == ("disc", "position_y")
-        return 1 - 0.5 * t
+        assert (name, quantity) == ("disc", "position")
+        return np.stack([0 * t, 1 - 0.5 * t], axis=1)
 
 
 @pytest.fixture
