@@ -1,5 +1,6 @@
 // The command line: `slurry run|check|info SCENE`, `slurry help scene`, `slurry bench`.
 #include "solver/bench/bench.hpp"
+#include "solver/discs/placement.hpp"
 #include "solver/geometry/geometry_error.hpp"
 #include "solver/geometry/region.hpp"
 #include "solver/output/partial_file.hpp"
@@ -69,8 +70,11 @@ void run(const Arguments& arguments) {
 
 void check(const Arguments& arguments) {
     const Scene scene = scene_of(arguments);
-    const std::size_t particles = Region(scene).lattice_points(scene.numerics.particle_spacing).size();
-    print(fmt::format("{}: ok, {} fluid particles\n", arguments.scene.string(), particles));
+    const Region region(scene);
+    const std::size_t particles = region.lattice_points(scene.numerics.particle_spacing).size();
+    const std::size_t discs = place_discs(scene, region).size();
+    print(fmt::format("{}: ok, {} fluid particles{}\n", arguments.scene.string(), particles,
+                      discs == 0 ? "" : fmt::format(", {} discs", discs)));
 }
 
 void info(const Arguments& arguments) {

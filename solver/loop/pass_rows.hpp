@@ -129,9 +129,19 @@ template <class Real> class PassRows {
     static Row<Real> row(std::convertible_to<double> auto... values) { return {{Real(values)...}}; }
 
     [[nodiscard]] Vector continuity_velocity(const DummyParticles& dummies, std::size_t d) const {
-        return wall_continuity_ == WallContinuity::wall_velocity
-                   ? Vector(dummies.solid_velocity_x[d], dummies.solid_velocity_y[d])
-                   : Vector(dummies.velocity_x[d], dummies.velocity_y[d]);
+        const Vector own(dummies.solid_velocity_x[d], dummies.solid_velocity_y[d]);
+        const Vector extrapolated(dummies.velocity_x[d], dummies.velocity_y[d]);
+        switch (wall_continuity_) {
+        case WallContinuity::extrapolated:
+            return extrapolated;
+        case WallContinuity::tangential: {
+            const Vector along(dummies.normal_y[d], -dummies.normal_x[d]);
+            return own + along.dot(extrapolated - own) * along;
+        }
+        case WallContinuity::wall_velocity:
+            break;
+        }
+        return own;
     }
 
     // Of a rigid body at one of its particles, m/s2.

@@ -23,11 +23,11 @@ GridAxes grid_axes(const Domain& domain, const std::array<int, 2>& points) {
 }
 
 GridValues probe_grid(const ParticleFinder& particles, const Region& region, const GridAxes& axes,
-                      double time) {
+                      double time, std::span<const Disc> discs) {
     GridValues grid;
     for (const double y : axes.y) {
         for (const double x : axes.x) {
-            const PointValues values = probe_point(particles, region, {x, y}, time);
+            const PointValues values = probe_point(particles, region, {x, y}, time, discs);
             grid.pressure.push_back(values.pressure);
             grid.velocity_x.push_back(values.velocity_x);
             grid.velocity_y.push_back(values.velocity_y);

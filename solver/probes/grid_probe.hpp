@@ -1,9 +1,11 @@
 #pragma once
 // Pressure and velocity on a regular grid over the domain.
 #include "solver/geometry/region.hpp"
+#include "solver/particles/disc.hpp"
 #include "solver/probes/particle_finder.hpp"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace slurry {
@@ -21,6 +23,6 @@ struct GridValues { // [ny * nx], x fastest; NaN as in PointValues
 
 // probe_point at every point of the grid; `time` in s.
 [[nodiscard]] GridValues probe_grid(const ParticleFinder& particles, const Region& region,
-                                    const GridAxes& axes, double time);
+                                    const GridAxes& axes, double time, std::span<const Disc> discs = {});
 
 } // namespace slurry

@@ -1,5 +1,6 @@
 #include "solver/probes/point_probe.hpp"
 
+#include "solver/discs/clearance.hpp"
 #include "solver/probes/local_fit.hpp"
 
 #include <limits>
@@ -17,9 +18,9 @@ constexpr int degree = 2;
 } // namespace
 
 PointValues probe_point(const ParticleFinder& particles, const Region& region, const Vector& position,
-                        double time) {
+                        double time, std::span<const Disc> discs) {
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-    if (!(region.distance(position, time) > 0)) {
+    if (!(region.distance(position, time) > 0 && clearance(discs, region.domain(), position) > 0)) {
         return {nothing, nothing, nothing};
     }
     const double spacing = particles.particle_spacing();

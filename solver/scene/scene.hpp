@@ -15,9 +15,9 @@ namespace slurry {
 // "Schemes" of the README lists. A scheme only sets the defaults of the keys of `numerics`.
 enum class Scheme : std::uint8_t { standard, wang2014 };
 enum class DummyLayout : std::uint8_t { curve, lattice };
-// Which velocity of a wall's dummies the continuity equation sees: the wall's own, or the extrapolated one
-// (2.16).
-enum class WallContinuity : std::uint8_t { wall_velocity, extrapolated };
+// Which velocity of a wall's dummies the continuity equation sees: the wall's own, the extrapolated one (2.16), or
+// the extrapolated one along the wall and the wall's own across it.
+enum class WallContinuity : std::uint8_t { wall_velocity, extrapolated, tangential };
 // Particle volume in the forces: m / rho, or 1 / sum W (below Eq. 2.8).
 enum class ParticleVolume : std::uint8_t { mass_over_density, number_density };
 // How the fluid is continued to the dummies of a wall: kernel means (2.16, 2.17) or least-squares fits.

@@ -130,7 +130,8 @@ void Recorder::record_series(const Particles& particles) {
     const ParticleFinder finder(fluid.view(), scene_.domain, scene_.numerics.particle_spacing);
     for (const ProbeScene& probe : scene_.probes) {
         if (const auto* point = std::get_if<PointProbe>(&probe.kind)) {
-            const PointValues values = probe_point(finder, region_, point->position, particles.time);
+            const PointValues values =
+                probe_point(finder, region_, point->position, particles.time, particles.discs);
             file_.begin_probe_sample(probe.name, particles.time);
             file_.add_probe_row(probe.name, "pressure", "Pa", std::span(&values.pressure, 1));
             file_.add_probe_row(probe.name, "velocity_x", "m/s", std::span(&values.velocity_x, 1));
@@ -191,8 +192,8 @@ void Recorder::record_walls_and_grids(const Particles& particles) {
     }
     for (const ProbeScene& probe : scene_.probes) {
         if (const auto* grid = std::get_if<GridProbe>(&probe.kind)) {
-            const GridValues values =
-                probe_grid(finder, region_, grid_axes(scene_.domain, grid->points), particles.time);
+            const GridValues values = probe_grid(finder, region_, grid_axes(scene_.domain, grid->points),
+                                                 particles.time, particles.discs);
             file_.begin_probe_sample(probe.name, particles.time);
             file_.add_probe_row(probe.name, "pressure", "Pa", values.pressure);
             file_.add_probe_row(probe.name, "velocity_x", "m/s", values.velocity_x);

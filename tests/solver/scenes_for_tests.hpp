@@ -36,6 +36,15 @@ inline Scene flat_channel(int n, double lid_speed = 0) {
     return scene;
 }
 
+// A disc in the middle of the box of doubly_periodic(n), a third as wide.
+inline DiscScene middle_disc(double density = 1000) {
+    DiscScene disc;
+    disc.name = "disc";
+    disc.placement = SingleDisc{1.0 / 6, {0.2, 0.7}};
+    disc.density = density;
+    return disc;
+}
+
 inline void jitter(Scene& scene, double amplitude, std::uint64_t seed = 7) {
     scene.start.arrangement = Arrangement::jittered;
     scene.start.jitter = amplitude;

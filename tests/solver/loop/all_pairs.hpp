@@ -261,7 +261,7 @@ class AllPairs {
         return pick(j, fluid_.velocity_x, fluid_.velocity_y, dummies_.velocity_x, dummies_.velocity_y);
     }
     [[nodiscard]] Vector wall_velocity(std::size_t d) const {
-        return dummies_.wall_velocity[static_cast<std::size_t>(dummies_.wall[d])];
+        return {dummies_.solid_velocity_x[d], dummies_.solid_velocity_y[d]};
     }
     [[nodiscard]] Vector continuity_velocity(std::size_t j) const {
         const bool walls_own = scene_.numerics.wall_continuity == WallContinuity::wall_velocity;

@@ -64,7 +64,7 @@ TEST(PeriodicRows, WrapsParticlesIntoTheDomainAndMovesTheDummiesStartAlong) {
     for (double& x : particles.fluid.x) {
         x += 2.7;
     }
-    particles.dummies.move_to(3.4);
+    particles.dummies.move_walls_to(3.4);
     PeriodicRows rows;
     rows.rebuild(particles, scene.domain, reach, reach);
     for (const auto* positions : {&particles.fluid.x, &particles.dummies.x}) {
@@ -74,7 +74,7 @@ TEST(PeriodicRows, WrapsParticlesIntoTheDomainAndMovesTheDummiesStartAlong) {
         }
     }
     const std::vector<double> wrapped = particles.dummies.x;
-    particles.dummies.move_to(3.4); // the same time: wrapping is not undone
+    particles.dummies.move_walls_to(3.4); // the same time: wrapping is not undone
     for (std::size_t d = 0; d < wrapped.size(); ++d) {
         EXPECT_NEAR(particles.dummies.x[d], wrapped[d], 1e-14);
     }

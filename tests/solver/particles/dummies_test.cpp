@@ -19,10 +19,12 @@ TEST(Dummies, OfASlidingLidStayButHaveTheWallsVelocity) {
     Particles particles = arrange(scene);
     const std::vector<double> x = particles.dummies.x;
     const std::vector<double> y = particles.dummies.y;
-    particles.dummies.move_to(7);
+    particles.dummies.move_walls_to(7);
     EXPECT_EQ(particles.dummies.x, x);
     EXPECT_EQ(particles.dummies.y, y);
-    EXPECT_EQ(particles.dummies.wall_velocity[2], Vector(3, 0));
+    for (std::size_t d = 0; d < particles.dummies.size(); ++d) {
+        EXPECT_EQ(particles.dummies.solid_velocity_x[d], particles.dummies.wall[d] == 2 ? 3 : 0);
+    }
     EXPECT_EQ(particles.dummies.wall_drift[2], Vector(0, 0));
 
     scene.numerics.wall_extrapolation = WallExtrapolation::mean;
@@ -50,7 +52,7 @@ TEST(Dummies, OfAMovingRoughPadMoveWithIt) {
     scene.walls[1].velocity = {-1, 0};
     Particles particles = arrange(scene);
     const DummyParticles start = particles.dummies;
-    particles.dummies.move_to(2e-6);
+    particles.dummies.move_walls_to(2e-6);
     for (std::size_t d = 0; d < start.size(); ++d) {
         EXPECT_NEAR(particles.dummies.x[d] - start.x[d], start.wall[d] == 1 ? -2e-6 : 0, 1e-18);
         EXPECT_EQ(particles.dummies.y[d], start.y[d]);
@@ -64,7 +66,7 @@ TEST(Dummies, KnowTheNearestPointOfTheirWallAndItsFrameWhileItMoves) {
     scene.walls[1].velocity = {-1, 0};
     Particles particles = arrange(scene);
     const double moved = -1.7e-5;
-    particles.dummies.move_to(-moved);
+    particles.dummies.move_walls_to(-moved);
     make_interactions(scene)->refresh_neighbours(particles); // wraps and sorts
     const DummyParticles& dummies = particles.dummies;
     const double k = 2 * std::numbers::pi / 3e-5;

@@ -91,7 +91,9 @@ TEST(Continuity, OfACommonVelocityVanishes) {
 TEST(Continuity, WallThatApproachesCompressesTheFluidBesideIt) {
     Scene scene = flat_channel(12);
     Particles particles = arrange(scene);
-    particles.dummies.wall_velocity[1] = {0, -1};
+    for (std::size_t d = 0; d < particles.dummies.size(); ++d) {
+        particles.dummies.solid_velocity_y[d] = particles.dummies.wall[d] == 1 ? -1 : 0;
+    }
     const auto interactions = make_interactions(scene);
     interactions->refresh_neighbours(particles);
     interactions->compute_density_rate(particles);

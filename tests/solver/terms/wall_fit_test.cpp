@@ -32,7 +32,7 @@ void set_fluid(Particles& particles, const Scene& scene, std::size_t d, const Po
     const double h = scene.numerics.smoothing_length();
     const Vector normal(dummies.normal_x[d], dummies.normal_y[d]);
     const Vector wall_point = Vector(dummies.x[d], dummies.y[d]) + dummies.depth[d] * normal;
-    const Vector wall_velocity = dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])];
+    const Vector wall_velocity(dummies.solid_velocity_x[d], dummies.solid_velocity_y[d]);
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         Vector offset = Vector(fluid.x[i], fluid.y[i]) - wall_point;
         offset.x() = nearest_image(offset.x(), scene.domain.size().x());
@@ -67,7 +67,7 @@ void expect_exact_continuation(Scene scene) {
         interactions->extrapolate_to_walls(particles);
         const double n = -dummies.depth[d] / scene.numerics.smoothing_length();
         const Vector expected =
-            dummies.wall_velocity[static_cast<std::size_t>(dummies.wall[d])] + polynomials.velocity(0, n);
+            Vector(dummies.solid_velocity_x[d], dummies.solid_velocity_y[d]) + polynomials.velocity(0, n);
         const double pressure = polynomials.pressure(0, n);
         EXPECT_NEAR(dummies.velocity_x[d], expected.x(), 1e-9 * expected.norm());
         EXPECT_NEAR(dummies.velocity_y[d], expected.y(), 1e-9 * expected.norm());

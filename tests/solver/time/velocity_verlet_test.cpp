@@ -2,7 +2,7 @@
 #include "solver/time/velocity_verlet.hpp"
 
 #include "solver/time/time_step.hpp"
-#include "tests/solver/scenes_for_tests.hpp"
+#include "tests/solver/flow_for_tests.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,25 +10,6 @@
 
 namespace slurry::testing {
 namespace {
-
-struct Flow {
-    Scene scene;
-    Particles particles;
-    std::unique_ptr<Interactions> interactions;
-    PhaseClock clock;
-
-    explicit Flow(const Scene& of, Particles start)
-        : scene(of), particles(std::move(start)), interactions(make_interactions(of)) {
-        prepare_first_step(particles, *interactions, scene.fluid, scene.numerics.sound_speed, clock);
-    }
-    explicit Flow(const Scene& of) : Flow(of, arrange(of)) {}
-
-    void run(int steps, double time_step) {
-        for (int step = 0; step < steps; ++step) {
-            advance(particles, *interactions, scene.fluid, scene.numerics.sound_speed, time_step, clock);
-        }
-    }
-};
 
 TEST(VelocityVerlet, UniformBoxInFreeFlightMovesExactlyAndStaysUniform) {
     for (const Vector& force : {Vector(0, 0), Vector(0.4, -1)}) {

@@ -102,14 +102,15 @@ TEST(Watchdog, FollowsWallsThatMove) {
 void run_with_fault(std::vector<double> FluidParticles::*array, double bad) {
     const Scene scene = flat_channel(12);
     const Region region(scene);
-    const double c = scene.numerics.sound_speed;
     Particles particles = arrange_particles(scene, region);
     const auto interactions = make_interactions(scene);
     PhaseClock clock;
-    prepare_first_step(particles, *interactions, scene.fluid, c, clock);
+    DiscContacts contacts(scene, region);
+    Forces forces{*interactions, contacts, scene.fluid, scene.numerics.sound_speed};
+    prepare_first_step(particles, forces, clock);
     (particles.fluid.*array)[culprit] = bad;
     for (int step = 0; step < 5; ++step) {
-        advance(particles, *interactions, scene.fluid, c, largest_time_step(scene), clock);
+        advance(particles, forces, largest_time_step(scene), clock);
     }
     check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing, 5);
 }
