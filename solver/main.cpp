@@ -74,7 +74,7 @@ void check(const Arguments& arguments) {
     const std::size_t particles = region.lattice_points(scene.numerics.particle_spacing).size();
     const std::size_t discs = place_discs(scene, region).size();
     print(fmt::format("{}: ok, {} fluid particles{}\n", arguments.scene.string(), particles,
-                      discs == 0 ? "" : fmt::format(", {} discs", discs)));
+                      discs == 0 ? "" : fmt::format(", {} disc{}", discs, discs == 1 ? "" : "s")));
 }
 
 void info(const Arguments& arguments) {

@@ -79,6 +79,14 @@ shape = "line"
 from = [0.0, 0.0]
 to = [1e-5, 0.0]
 """
+DISC = """
+[[discs]]
+name = "abrasive"
+placement = "single"
+density = 2000.0
+radius = 2e-6
+position = [5e-6, 5e-6]
+"""
 WAVY_PAD = """\
 shape = "cosine"
 mean_height = {mean}
@@ -151,6 +159,25 @@ def test_spacing_and_set_reach_the_scene(scene: Path) -> None:
         done = slurry("check", *words, scene, cwd=scene.parent)
         assert (done.returncode, done.stderr) == (0, "")
         assert "400 fluid particles" in done.stdout
+
+
+def test_check_counts_and_warns_of_discs(scene: Path) -> None:
+    scene.write_text(SCENE + DISC)
+    done = slurry("check", scene, cwd=scene.parent)
+    assert done.returncode == 0
+    assert done.stdout.endswith(" fluid particles, 1 disc\n")
+    line = line_of(SCENE + DISC, "radius")
+    assert done.stderr.startswith(f'warning: {scene}:{line}:10: found a disc "abrasive" of radius 2e-06 (m)')
+    assert len(done.stderr.splitlines()) == 1
+    done = slurry("check", scene, "--spacing", "5e-7", cwd=scene.parent)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_discs_without_room_are_refused(scene: Path) -> None:
+    scene.write_text(SCENE + DISC)
+    change = "discs.abrasive.position=[5e-6, 1e-6]"
+    done = slurry("check", scene, "--spacing", "5e-7", "--set", change, cwd=scene.parent)
+    assert_refused(done, f"{scene}: disc 'abrasive' at", "1e-06 m behind wall 'pad'")
 
 
 def test_info_tells_which_terms_run(scene: Path) -> None:

@@ -228,9 +228,8 @@ TEST(RandomDiscs, AreRefusedWhereTheyCannotFit) {
     scene.discs = {random_discs("grain", random)};
     const std::string crowded = refusal(scene);
     for (const char* part : {"discs 'grain': ", " of 139 random discs have a place after 239000 tries",
-                             "an area fraction of 0.", "one of radius 0.04 m",
-                             "ask for fewer or smaller discs or a "
-                             "smaller least_distance"})
+                             "no room for one of radius 0.04 m", "an area fraction of 0.5",
+                             "Ask for fewer or smaller discs, or a smaller least_distance"})
         EXPECT_NE(crowded.find(part), std::string::npos) << part << "\n" << crowded;
 
     random.area_fraction = 0.2;
