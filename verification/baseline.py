@@ -67,7 +67,9 @@ def compare(results: dict[str, Any], baseline: Baseline) -> list[dict[str, Any]]
             status = "improved"
         else:
             status = "unchanged"
-        rows.append({"key": key, "accepted": old, "value": new, "status": status, "unit": check.get("unit", "")})
+        rows.append(
+            {"key": key, "accepted": old, "value": new, "status": status, "unit": check.get("unit", "")}
+        )
     if results["complete"]:
         rows += [
             {"key": key, "accepted": old, "value": None, "status": "missing", "unit": ""}

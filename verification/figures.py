@@ -20,6 +20,7 @@ STYLE = {"font.size": 11, "axes.grid": True, "grid.alpha": 0.3, "figure.dpi": 13
 COLOURS = ("tab:blue", "tab:orange", "tab:green", "tab:red", "tab:purple")
 MARKERS = ("o", "s", "^", "D", "v")
 MICRO = 1e6
+MOST_TICKS = 4  # that do not overlap
 TRUTHS = ("exact", "finite-element", "published")
 
 
@@ -220,8 +221,9 @@ def _curves(axis: Axes, data: Data, quantity: str, key: str, fitted: bool) -> No
         axis.axhline(min(tolerance), color="grey", linestyle=":", label=f"tolerance {min(tolerance):g}")
     if fitted:
         spacings = sorted({e[key] for e in data.entries})
-        axis.set_xticks(spacings, [f"{spacing:.3g}" for spacing in spacings], fontsize=9)
-        axis.set_xticks([], minor=True)
+        if len(spacings) <= MOST_TICKS:
+            axis.set_xticks(spacings, [f"{spacing:.3g}" for spacing in spacings], fontsize=9)
+            axis.set_xticks([], minor=True)
     axis.grid(True, which="both", alpha=0.25)
     if axis.get_legend_handles_labels()[0]:
         axis.legend(fontsize=8)
