@@ -44,6 +44,10 @@ class Reference(Protocol):
     def wall_shear(self, wall: str, x: Array, t: float) -> Array: ...  # (n,), Pa
     def kinetic_energy(self, t: float) -> float: ...  # J/m
 
+    # Of a scene with discs, at times t (n,): "position" or "velocity" (n, 2) in m or m/s, "angle" (n,) in
+    # rad, "spin" (n,) in rad/s, "torque" (n,) in N: what the reference knows; ReferenceError otherwise.
+    def disc(self, name: str, quantity: str, t: Array) -> Array: ...
+
 
 def canonical(problem: Mapping[str, object]) -> str:
     """One text for one problem, whatever the order of its keys."""

@@ -17,7 +17,7 @@ Task = tuple[str, str, Path, dict]  # label, reference, scene file, overrides
 
 
 def tasks(root: Path, wanted: list[str]) -> Iterator[Task]:
-    """One task for every variant of every case of the folder `root`."""
+    """One task for every reference of every variant of every case of the folder `root`."""
     cases = {file.parent.name: file for file in sorted(root.glob("*/checks.toml"))}
     for name in wanted:
         if name not in cases:
@@ -25,12 +25,19 @@ def tasks(root: Path, wanted: list[str]) -> Iterator[Task]:
     for name in wanted or cases:
         try:
             checks = tomllib.loads(cases[name].read_text(encoding="utf-8"))
-            reference = checks["reference"]
-        except (OSError, tomllib.TOMLDecodeError, KeyError) as error:
-            raise ReferenceError(f"{cases[name]}: cannot be read or names no reference: {error}") from error
+            named = [({}, checks)] if "reference" in checks else []
+            named += [(entry, entry) for entry in checks.get("checks", []) if "reference" in entry]
+        except (OSError, tomllib.TOMLDecodeError) as error:
+            raise ReferenceError(f"{cases[name]}: cannot be read: {error}") from error
         for variant in checks.get("variants", []) or [{}]:
             label = " ".join(filter(None, (name, variant.get("name"))))
-            yield label, reference, cases[name].with_name("scene.toml"), variant.get("set", {})
+            mine = [
+                r["reference"]
+                for of, r in named
+                if variant.get("name") in of.get("variants", [variant.get("name")])
+            ]
+            for reference in dict.fromkeys(mine):
+                yield label, reference, cases[name].with_name("scene.toml"), variant.get("set", {})
 
 
 def make(task: Task, cache: Path) -> None:

@@ -31,9 +31,9 @@ def load(path: Path = PATH) -> Baseline:
 
 
 def values(results: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Every check of the results with its key."""
+    """Every check of the results with its key, but those that are only reported."""
     for case in results["cases"]:
-        for check in case["checks"]:
+        for check in [check for check in case["checks"] if not check.get("reported")]:
             names = (
                 case["case"],
                 case["scheme"],
@@ -67,10 +67,13 @@ def compare(results: dict[str, Any], baseline: Baseline) -> list[dict[str, Any]]
             status = "improved"
         else:
             status = "unchanged"
-        rows.append({"key": key, "accepted": old, "value": new, "status": status})
+        rows.append(
+            {"key": key, "accepted": old, "value": new, "status": status, "unit": check.get("unit", "")}
+        )
     if results["complete"]:
         rows += [
-            {"key": key, "accepted": old, "value": None, "status": "missing"} for key, old in accepted.items()
+            {"key": key, "accepted": old, "value": None, "status": "missing", "unit": ""}
+            for key, old in accepted.items()
         ]
     return rows
 

@@ -1,27 +1,31 @@
 """Cases as data: reads verification/<case>/scene.toml and checks.toml.
 
 A value in checks.toml that differs by scheme, level or variant is a table keyed by their names, any nesting:
-`tolerance = { default = { gate = 0.004, paper = 0.002 }, wang2014 = 0.005 }`.
+`tolerance = { default = { gate = 0.004, paper = 0.002 }, wang2014 = 0.005 }`. An empty list of spacings says
+that a variant is not run at that level.
 """
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from reference.scene import override
-from verification.compare import KINDS, METRICS, Check
+from verification.compare import EVERY, KINDS, METRICS, Check, Curves
 
 ROOT = Path(__file__).resolve().parent
 SCHEMES = ("default", "wang2014")
 LEVELS = ("gate", "paper")
 CHECK_KEYS = {
     "quantity", "at", "field", "metric", "tolerance", "kind", "why", "order_band", "order_floor",
-    "subtract_mean", "times", "from", "against", "variants", "known_shortfall",
+    "subtract_mean", "times", "from", "against", "variants", "known_shortfall", "reference", "value",
+    "source", "data", "conserved", "window", "statistic", "unit", "scale", "reported",
 }  # fmt: skip
+TRUTHS = ("data", "against", "value", "conserved", "from")  # else the reference
+STATISTICS = ("min", "max", "mean", "deviation")
 
 
 class CaseError(ValueError):
@@ -38,16 +42,29 @@ class Variant:
 class Case:
     name: str
     scene_path: Path
-    reference: str
+    reference: str  # of the checks that name no other; "" for none
     figures: tuple[str, ...]
     variants: tuple[Variant, ...]
     data: Mapping[str, Any]  # checks.toml as read
 
-    def spacings(self, scheme: str, level: str) -> list[float]:
-        values = select(self.data["spacings"], (scheme, level))
-        if not values or len(values) < 3 or sorted(set(values), reverse=True) != values:
-            raise CaseError(f"{self.name}: needs three spacings or more, from coarse to fine, not {values}")
+    @property
+    def schemes(self) -> tuple[str, ...]:
+        return tuple(self.data.get("schemes", SCHEMES))
+
+    def spacings(self, scheme: str, level: str, variant: str = "") -> list[float]:
+        values = select(self.data["spacings"], (scheme, level, variant))
+        if values is None or sorted(set(values), reverse=True) != values:
+            raise CaseError(f"{self.name}: needs spacings from coarse to fine, not {values}")
+        if 0 < len(values) < 3 and any(c.order_band for c in self.checks(scheme, level, variant)):
+            raise CaseError(f"{self.name}: an order_band needs three spacings or more, not {values}")
         return [float(value) for value in values]
+
+    def references(self, variant: str) -> list[str]:
+        """Names of all references that the checks of a variant need."""
+        checks = (
+            c for scheme in self.schemes for level in LEVELS for c in self.checks(scheme, level, variant)
+        )
+        return sorted({check.reference for check in checks if check.reference})
 
     def scene(self, variant: Variant | None = None) -> dict[str, Any]:
         """The scene with the variant's overrides, defaults not filled in."""
@@ -58,7 +75,8 @@ class Case:
 
     def checks(self, scheme: str, level: str, variant: str) -> list[Check]:
         entries = [e for e in self.data["checks"] if variant in e.get("variants", [variant])]
-        return [check for entry in entries for check in _checks(entry, (scheme, level, variant), self.name)]
+        keys = (scheme, level, variant)
+        return [check for entry in entries for check in _checks(entry, keys, self.name, self.reference)]
 
 
 def select(value: Any, keys: Iterable[str]) -> Any:
@@ -75,16 +93,18 @@ def load_case(name: str, root: Path = ROOT) -> Case:
         data = tomllib.loads(path.read_text())
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise CaseError(f"{name}: {error}") from error
-    missing = {"reference", "spacings", "variants", "checks"} - data.keys()
+    missing = {"spacings", "variants", "checks"} - data.keys()
     if missing:
         raise CaseError(f"{path.name} of {name}: missing {', '.join(sorted(missing))}")
     variants = tuple(Variant(v["name"], v.get("set", {})) for v in data["variants"])
     figures = tuple(data.get("figures", ()))
-    case = Case(name, root / name / "scene.toml", data["reference"], figures, variants, data)
-    for scheme in SCHEMES:
+    case = Case(name, root / name / "scene.toml", data.get("reference", ""), figures, variants, data)
+    if unknown := set(case.schemes) - set(SCHEMES):
+        raise CaseError(f"{path.name} of {name}: no scheme is called {', '.join(sorted(unknown))}")
+    for scheme in case.schemes:
         for level in LEVELS:
-            case.spacings(scheme, level)
             for variant in variants:
+                case.spacings(scheme, level, variant.name)
                 case.checks(scheme, level, variant.name)
     return case
 
@@ -93,21 +113,22 @@ def load_cases(root: Path = ROOT) -> list[Case]:
     return [load_case(path.parent.name, root) for path in sorted(root.glob("*/checks.toml"))]
 
 
-def _checks(entry: Mapping[str, Any], keys: tuple[str, str, str], case: str) -> list[Check]:
+def _checks(
+    entry: Mapping[str, Any], keys: tuple[str, str, str], case: str, reference: str
+) -> Iterator[Check]:
+    """One check for each of the entry's times."""
     where = f"checks.toml of {case}, {entry.get('quantity', 'a check without quantity')}"
-    unknown = entry.keys() - CHECK_KEYS
-    missing = {"quantity", "at", "field", "metric", "tolerance", "kind", "why"} - entry.keys()
-    if unknown or missing:
-        raise CaseError(f"{where}: unknown {sorted(unknown)}, missing {sorted(missing)}")
-    if entry["metric"] not in METRICS or entry["kind"] not in KINDS:
-        raise CaseError(f"{where}: metric {entry['metric']} or kind {entry['kind']} is unknown")
+    _require_sense(entry, reference, where)
     tolerance = select(entry["tolerance"], keys)
     if not isinstance(tolerance, (int, float)) or not 0 < tolerance < float("inf"):
         raise CaseError(f"{where}: no tolerance for {', '.join(keys)}")
-    band = select(entry.get("order_band"), keys)
+    chosen = {key: select(entry.get(key), keys) for key in ("order_band", "value", "window", "scale", "from")}
+    value, window, band = chosen["value"], chosen["window"], chosen["order_band"]
+    if "value" in entry and value is None:
+        raise CaseError(f"{where}: no value for {', '.join(keys)}")
     times = entry.get("times", [None])
-    return [
-        Check(
+    for time in times:
+        yield Check(
             quantity=entry["quantity"] if len(times) == 1 else f"{entry['quantity']} at {time:g} s",
             at=entry["at"],
             field=entry["field"],
@@ -119,12 +140,58 @@ def _checks(entry: Mapping[str, Any], keys: tuple[str, str, str], case: str) -> 
             order_floor=float(entry.get("order_floor", 0.0)),
             subtract_mean=entry.get("subtract_mean", False),
             time=time,
-            from_time=select(entry.get("from"), keys),
+            from_time=chosen["from"],
             against=entry.get("against"),
             known_shortfall=select(entry.get("known_shortfall"), keys),
+            reference="" if set(TRUTHS) & entry.keys() else entry.get("reference", reference),
+            value=tuple(map(float, value if isinstance(value, list) else [value]))
+            if "value" in entry
+            else (),
+            source=entry.get("source", ""),
+            data=curves(entry["data"], where) if "data" in entry else None,
+            conserved=entry.get("conserved", False),
+            window=(float(window[0]), float(window[1])) if window else None,
+            statistic=entry.get("statistic"),
+            unit=entry.get("unit", ""),
+            stated_scale=chosen["scale"],
+            reported=bool(select(entry.get("reported"), keys)),
         )
-        for time in times
-    ]
+
+
+def _require_sense(entry: Mapping[str, Any], reference: str, where: str) -> None:
+    """Refuses keys that are unknown, missing or cannot go together."""
+    unknown = entry.keys() - CHECK_KEYS
+    missing = {"quantity", "at", "field", "metric", "tolerance", "kind", "why"} - entry.keys()
+    if unknown or missing:
+        raise CaseError(f"{where}: unknown {sorted(unknown)}, missing {sorted(missing)}")
+    if entry["metric"] not in METRICS or entry["kind"] not in KINDS:
+        raise CaseError(f"{where}: metric {entry['metric']} or kind {entry['kind']} is unknown")
+    truths = sorted(set(TRUTHS) & entry.keys())
+    ensemble = entry.get("against") == EVERY
+    if ensemble != (truths == ["against", "data"]) or (len(truths) > 1 and not ensemble):
+        raise CaseError(
+            f"{where}: held against {', '.join(truths)}; one of them is wanted, or data and every variant"
+        )
+    if not (truths or entry.get("reference", reference)):
+        raise CaseError(
+            f"{where}: there is nothing to hold it against: no reference and none of {', '.join(TRUTHS)}"
+        )
+    if (entry["metric"] == "largest_difference") != (("unit" in entry) != ("scale" in entry)):
+        raise CaseError(f"{where}: largest_difference, and no other metric, needs a unit or a scale")
+    if "statistic" in entry and ("data" in entry or entry["statistic"] not in STATISTICS):
+        raise CaseError(f"{where}: a statistic is {' or '.join(STATISTICS)}, and not of published curves")
+    if ("value" in entry) != ("source" in entry):
+        raise CaseError(f"{where}: a value and its source go together")
+
+
+def curves(entry: Mapping[str, Any], where: str) -> Curves:
+    try:
+        columns = tuple(entry["columns"])
+        return Curves(**{"time": "t_s", **entry, "columns": columns})
+    except (KeyError, TypeError) as error:
+        raise CaseError(
+            f"{where}: data needs file and columns, may have time, offset and factor: {error}"
+        ) from error
 
 
 def toml_value(value: Any) -> str:

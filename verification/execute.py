@@ -60,11 +60,11 @@ class Outcome:
 def plan(cases: Sequence[Case], options: argparse.Namespace) -> list[Run]:
     runs = []
     for case in cases:
-        for scheme in options.scheme or SCHEMES:
-            spacings = sorted(options.spacings or case.spacings(scheme, options.level), reverse=True)
-            for variant in case.variants:
-                if options.variant in (None, variant.name):
-                    runs += [Run(case, scheme, variant, s, s == spacings[-1]) for s in spacings]
+        for scheme in [scheme for scheme in options.scheme or SCHEMES if scheme in case.schemes]:
+            for variant in [v for v in case.variants if options.variant in (None, v.name)]:
+                asked = options.spacings or case.spacings(scheme, options.level, variant.name)
+                spacings = sorted(asked, reverse=True)
+                runs += [Run(case, scheme, variant, s, s == spacings[-1]) for s in spacings]
     return runs
 
 
@@ -73,7 +73,8 @@ def execute(run: Run, options: argparse.Namespace, prefix: Sequence[str] = ()) -
     Outcome with the solver's message, not an exception.
     """
     folder = run.folder(options.out)
-    outcome = Outcome(run, Result(folder / "result.h5", run.case.scene(run.variant)["output"]["end_time"]))
+    scene = run.case.scene(run.variant)
+    outcome = Outcome(run, Result(folder / "result.h5", scene["output"]["end_time"], scene))
     settings = run.settings() + options.solver_set
     arguments = ["run", str(run.case.scene_path)] + [part for item in settings for part in ("--set", item)]
     content = options.solver.read_bytes() + run.case.scene_path.read_bytes() + "\0".join(arguments).encode()

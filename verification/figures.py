@@ -20,6 +20,8 @@ STYLE = {"font.size": 11, "axes.grid": True, "grid.alpha": 0.3, "figure.dpi": 13
 COLOURS = ("tab:blue", "tab:orange", "tab:green", "tab:red", "tab:purple")
 MARKERS = ("o", "s", "^", "D", "v")
 MICRO = 1e6
+MOST_TICKS = 4  # that do not overlap
+TRUTHS = ("exact", "finite-element", "published")
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,7 @@ class Data:
     case: Case
     entries: Sequence[dict[str, Any]]  # the case's part of results.json
     out: Path
-    reference: Callable[[Variant], Reference]
+    reference: Callable[..., Reference]  # of a variant: the case's, or the one named
 
     def entry(self, variant: str, scheme: str = "default") -> dict[str, Any]:
         """The run at the finest spacing; of the other scheme when this one was not run."""
@@ -40,9 +42,17 @@ class Data:
         return entries[0]
 
     def result(self, variant: Variant, scheme: str = "default") -> Result:
-        e = self.entry(variant.name, scheme)
+        return self._result(variant, self.entry(variant.name, scheme))
+
+    def results(self, variant: Variant) -> list[tuple[float, Result]]:
+        """Every spacing in m that the variant was run at, and its run."""
+        entries = [e for e in self.entries if e["variant"] == variant.name]
+        return [(e["spacing_m"], self._result(variant, e)) for e in entries]
+
+    def _result(self, variant: Variant, e: dict[str, Any]) -> Result:
         folder = self.out / "runs" / self.case.name / e["scheme"] / variant.name / f"{e['spacing_m']:g}"
-        return Result(folder / "result.h5", self.case.scene(variant)["output"]["end_time"])
+        scene = self.case.scene(variant)
+        return Result(folder / "result.h5", scene["output"]["end_time"], scene)
 
     def label(self, variant: str) -> str:
         e = self.entry(variant)
@@ -159,7 +169,9 @@ def cost(data: Data) -> Figure:
 
 
 def _panels(data: Data, key: str, label: str, fitted: bool) -> Figure:
-    truths = [c for e in data.entries for c in e["checks"] if c["kind"] in ("exact", "finite-element")]
+    # A check at a single spacing shows no convergence.
+    spacings = {e["spacing_m"] for e in data.entries}
+    truths = [c for e in data.entries for c in e["checks"] if c["kind"] in TRUTHS and len(spacings) > 1]
     quantities = list(dict.fromkeys(c["quantity"] for c in truths if c["value"]))
     if not quantities:
         raise DataError("no check has a value")
@@ -169,7 +181,9 @@ def _panels(data: Data, key: str, label: str, fitted: bool) -> Figure:
     axes = list(figure.subplots(rows, columns, squeeze=False).flat)
     for axis, quantity in zip(axes, quantities, strict=False):
         _curves(axis, data, quantity, key, fitted)
-        axis.set(title=quantity.replace("_", " "), xlabel=label, ylabel="relative error (-)")
+        unit = next(c["unit"] for c in truths if c["quantity"] == quantity)
+        error = f"error ({unit})" if unit else "relative error (-)"
+        axis.set(title=quantity.replace("_", " "), xlabel=label, ylabel=error)
     for axis in axes[len(quantities) :]:
         axis.set_axis_off()
     return figure
@@ -207,13 +221,22 @@ def _curves(axis: Axes, data: Data, quantity: str, key: str, fitted: bool) -> No
         axis.axhline(min(tolerance), color="grey", linestyle=":", label=f"tolerance {min(tolerance):g}")
     if fitted:
         spacings = sorted({e[key] for e in data.entries})
-        axis.set_xticks(spacings, [f"{spacing:.3g}" for spacing in spacings], fontsize=9)
-        axis.set_xticks([], minor=True)
+        if len(spacings) <= MOST_TICKS:
+            axis.set_xticks(spacings, [f"{spacing:.3g}" for spacing in spacings], fontsize=9)
+            axis.set_xticks([], minor=True)
     axis.grid(True, which="both", alpha=0.25)
     if axis.get_legend_handles_labels()[0]:
         axis.legend(fontsize=8)
 
 
+CAPTIONS = {
+    "wafer": "Pressure and shear on the wafer against the finite-element line (Fig. 7).",
+    "field": "Pressure at the particles, one colour scale: SPH, finite elements, their difference (Fig. 8).",
+    "profiles": "Velocity profiles over time: every fluid particle against the series.",
+    "decay": "Decay of the kinetic energy.",
+    "convergence": "Error against spacing with the fitted order; dotted: the tolerance at the finest.",
+    "cost": "Error against wall time.",
+}
 FIGURES: dict[str, Callable[[Data], Figure]] = {
     "wafer": wafer,
     "field": field,

@@ -1,25 +1,19 @@
-"""From a run's result.h5 and its reference to the two arrays that a check compares.
+"""What a run left behind: its result.h5, read with distrust.
 
 Everything that is not there, too short, out of order or not finite raises DataError with a reason.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
 
-from reference import Reference
-from verification.compare import (
-    Array,
-    Check,
-    DataError,
-    measure,
-    require_reference_quality,
-    require_series,
-)
+from verification.compare import Array, DataError, require_series
 
 # A sample stands for a wanted time when it is within this share of the end time. The reference is taken at
 # the sample's own time: this only tells a run that ended early from one whose step does not divide the time.
@@ -47,11 +41,14 @@ class WallSample:
 
 
 class Result:
-    """Reads one result.h5 and refuses a run that did not reach `end_time` (of the scene, not of the file)."""
+    """Reads one result.h5 and refuses a run that did not reach `end_time`. That and `scene` are the case's,
+    not the file's: what the solver was told beside the case must not go unnoticed.
+    """
 
-    def __init__(self, path: Path, end_time: float) -> None:
+    def __init__(self, path: Path, end_time: float, scene: Mapping[str, Any] | None = None) -> None:
         self.path = path
         self.end_time = end_time
+        self.scene = scene or {}
 
     def _open(self) -> h5py.File:
         try:
@@ -67,17 +64,25 @@ class Result:
         with self._open() as file:
             return {name: float(value) for name, value in _group(file, "run").attrs.items()}
 
-    def particles(self, time: float | None = None) -> Particles:
-        wanted = self.end_time if time is None else time
+    def attribute(self, name: str) -> float:
+        attributes = self.attributes()
+        if name not in attributes:
+            raise DataError(f"the result says nothing of {name}")
+        return attributes[name]
+
+    def snapshot_times(self) -> Array:
         with self._open() as file:
             snapshots = _group(file, "snapshots")
-            stamps = require_series(
-                "the snapshots", [snapshots[n].attrs.get("time", np.nan) for n in snapshots]
-            )
-            if np.any(np.diff(stamps) <= 0):
-                raise DataError("the times of the snapshots do not increase")
-            index = int(np.argmin(np.abs(stamps - wanted)))
-            self._near(stamps[index], wanted, f"snapshot {index}")
+            times = [snapshots[name].attrs.get("time", np.nan) for name in snapshots]
+        return require_series("the snapshots", times, times)
+
+    def particles(self, time: float | None = None) -> Particles:
+        wanted = self.end_time if time is None else time
+        stamps = self.snapshot_times()
+        index = int(np.argmin(np.abs(stamps - wanted)))
+        self._near(stamps[index], wanted, f"snapshot {index}")
+        with self._open() as file:
+            snapshots = _group(file, "snapshots")
             snapshot = snapshots[list(snapshots)[index]]
             fluid = _dataset(snapshot, "wall") < 0
             expected = int(_group(file, "run").attrs.get("fluid_particles", -1))
@@ -116,6 +121,36 @@ class Result:
         self._near(times[-1], self.end_time, f"the last sample of series {name}")
         return times, values
 
+    def disc_names(self) -> list[str]:
+        with self._open() as file:
+            return str(_group(file, "discs").attrs.get("names", "")).split(",")
+
+    def disc(self, name: str, field: str) -> tuple[Array, Array]:
+        """Times (n,) and one disc's values (n,) of a field, or (n, 2) of one that has parts _x and _y."""
+        names = self.disc_names()
+        if name not in names:
+            raise DataError(f"the result has no disc {name}, only {', '.join(names)}")
+        with self._open() as file:
+            group = _group(file, "discs")
+            times = _dataset(group, "time")
+            parts = [field] if field in group else [f"{field}_x", f"{field}_y"]
+            columns = [_dataset(group, part) for part in parts]
+        if any(column.ndim != 2 or column.shape[1] != len(names) for column in columns):
+            raise DataError(f"{field} of the discs is not one column for each of {len(names)} discs")
+        values = np.stack([column[:, names.index(name)] for column in columns], axis=1)
+        values = require_series(f"{field} of disc {name}", values, times)
+        self._near(times[-1], self.end_time, f"the last sample of disc {name}")
+        return times, values[:, 0] if len(parts) == 1 else values
+
+    def disc_constant(self, name: str, field: str) -> float:
+        """radius (m), mass (kg/m), moment_of_inertia (kg m) or density (kg/m3) of a disc."""
+        names = self.disc_names()
+        with self._open() as file:
+            values = require_series(f"{field} of the discs", _dataset(_group(file, "discs"), field))
+        if name not in names or len(values) != len(names):
+            raise DataError(f"the result has no {field} of disc {name}")
+        return float(values[names.index(name)])
+
 
 def _group(parent: h5py.Group, name: str) -> h5py.Group:
     if not isinstance(parent.get(name), h5py.Group):
@@ -127,45 +162,3 @@ def _dataset(parent: h5py.Group, name: str) -> Array:
     if not isinstance(parent.get(name), h5py.Dataset):
         raise DataError(f"the result has no {parent.name.lstrip('/')}/{name}")
     return np.atleast_1d(parent[name][()])
-
-
-def wall_name(at: str) -> str:
-    return at.removeprefix("wall:")
-
-
-def error_of(check: Check, result: Result, reference: Reference | None, other: Result | None = None) -> float:
-    """The check's error for one run; `other` is the run of the variant that the check names, if it does."""
-    if check.at == "series":
-        return measure(check, *_series_pair(check, result, reference))
-    if check.against is not None:
-        if other is None or not check.at.startswith("wall:"):
-            raise DataError(f"nothing of variant {check.against} to compare with")
-        mine, theirs = (run.wall(wall_name(check.at)) for run in (result, other))
-        if mine.x.shape != theirs.x.shape or not np.allclose(mine.x, theirs.x, rtol=1e-9, atol=0):
-            raise DataError("the two variants' probes have different points")
-        return measure(check, getattr(mine, check.field), getattr(theirs, check.field))
-    if reference is None:
-        raise DataError("there is no reference")
-    require_reference_quality(reference.error_estimate)
-    if check.at == "particles":
-        particles = result.particles(check.time)
-        field = getattr(reference, check.field)
-        truth = field(particles.position[:, 0], particles.position[:, 1], particles.time)
-        return measure(check, getattr(particles, check.field), truth)
-    wall = wall_name(check.at)
-    sample = result.wall(wall)
-    truth = getattr(reference, f"wall_{check.field}")(wall, sample.x, sample.time)
-    return measure(check, getattr(sample, check.field), truth)
-
-
-def _series_pair(check: Check, result: Result, reference: Reference | None) -> tuple[Array, Array]:
-    times, values = result.series(check.field)
-    if check.from_time is not None:  # against its own final value
-        window = values[times >= check.from_time]
-        if len(window) < 3:
-            raise DataError(f"series {check.field} has {len(window)} samples from {check.from_time:g} s on")
-        return window, np.full_like(window, window[-1])
-    if reference is None:
-        raise DataError("there is no reference")
-    require_reference_quality(reference.error_estimate)
-    return values[-1:], np.atleast_1d(getattr(reference, check.field)(times[-1]))

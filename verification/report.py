@@ -16,33 +16,37 @@ from typing import Any
 
 import matplotlib
 
-from verification import baseline
+from verification import baseline, disc_figures, figures
 from verification.case import ROOT, CaseError, Variant, load_case
 from verification.compare import DataError
-from verification.figures import FIGURES, STYLE, Data
+from verification.figures import STYLE, Data
 from verification.page import Block, Picture, Table, to_html, to_markdown
-from verification.results import summary
+from verification.results import standing, summary
 
 MARKERS = ("<!-- results:begin -->", "<!-- results:end -->")
 MAIN_FIGURE = "rough_channel_wafer"
-CAPTIONS = {
-    "wafer": "Pressure and shear on the wafer against the finite-element line (Fig. 7).",
-    "field": "Pressure at the particles, one colour scale: SPH, finite elements, their difference (Fig. 8).",
-    "profiles": "Velocity profiles over time: every fluid particle against the series.",
-    "decay": "Decay of the kinetic energy.",
-    "convergence": "Error against spacing with the fitted order; dotted: the tolerance at the finest.",
-    "cost": "Error against wall time.",
-}
+FIGURES = figures.FIGURES | disc_figures.FIGURES
+CAPTIONS = figures.CAPTIONS | disc_figures.CAPTIONS
 
 
 def percent(value: float | None) -> str:
     return "none" if value is None else f"{100 * value:.3g} %"
 
 
+def amount(value: float | None, check: dict[str, Any]) -> str:
+    """A relative error as percentage, an absolute one with its unit."""
+    return f"{value:.3g} {check['unit']}" if check["unit"] and value is not None else percent(value)
+
+
 def _verdict(check: dict[str, Any]) -> tuple[str, str]:
-    if check["passed"]:
-        return "", "passed"
-    return ("known", "known shortfall") if check["known_shortfall"] else ("failed", "FAILED")
+    if check["reported"]:
+        return ("", "reported: within") if check["passed"] else ("known", "reported: not within")
+    verdicts = {
+        "passed": ("", "passed"),
+        "known": ("known", "known shortfall"),
+        "failed": ("failed", "FAILED"),
+    }
+    return verdicts[standing(check)]
 
 
 def _order(check: dict[str, Any]) -> str:
@@ -69,7 +73,8 @@ def verification_table(results: dict[str, Any]) -> Table:
     for case, check in _all(results):
         if case["finest"]:
             style, verdict = _verdict(check)
-            cells = (check["quantity"], check["metric"], percent(check["value"]), percent(check["tolerance"]))
+            numbers = (amount(check["value"], check), amount(check["tolerance"], check))
+            cells = (check["quantity"], check["metric"], *numbers)
             rows.append((style, (*_run(case), *cells, _order(check), check["kind"], verdict)))
     return Table((*RUN_HEAD, "quantity", "metric", "error", "tolerance", "order", "kind", "verdict"), rows)
 
@@ -95,7 +100,7 @@ def definition_table(results: dict[str, Any]) -> Table:
 def run_table(results: dict[str, Any]) -> Table:
     rows = []
     for case in results["cases"]:
-        errors = ", ".join(f"{check['quantity']} {percent(check['value'])}" for check in case["checks"])
+        errors = ", ".join(f"{check['quantity']} {amount(check['value'], check)}" for check in case["checks"])
         speed = (f"{case['wall_s']:.1f}", f"{case['particle_steps_per_s']:.3g}")
         cells = (*_run(case), str(case["steps"]), str(case["threads"]), *speed, errors)
         rows.append(("" if case["passed"] else "failed", cells))
@@ -106,7 +111,9 @@ def baseline_table(results: dict[str, Any]) -> Table:
     rows = []
     for row in results["baseline"]:
         style = "failed" if row in baseline.failures(results) else ""
-        rows.append((style, (row["key"], percent(row["accepted"]), percent(row["value"]), row["status"])))
+        rows.append(
+            (style, (row["key"], *(amount(row[k], row) for k in ("accepted", "value")), row["status"]))
+        )
     return Table(("check", "accepted", "now", "status"), rows)
 
 
@@ -135,11 +142,12 @@ def blocks(results: dict[str, Any], pictures: Sequence[Picture], notes: Sequence
 
 
 def headline(results: dict[str, Any]) -> str:
-    known = sum(check["known_shortfall"] for _, check in _all(results))
+    found = [standing(check) for case, check in _all(results) if case["finest"]]
     passed, failed = summary(results)
     verdict = "PASSED" if results["passed"] else "FAILED"
-    shortfalls = f", {known} known shortfalls" if known else ""
-    return f"{verdict}: {passed} checks passed, {failed} failed{shortfalls}"
+    others = {"known": "known shortfalls", "reported": "only reported"}
+    more = "".join(f", {found.count(style)} {name}" for style, name in others.items() if style in found)
+    return f"{verdict}: {passed} checks passed, {failed} failed{more}"
 
 
 def draw(results: dict[str, Any], out: Path, references: Any) -> tuple[list[Picture], list[str]]:
@@ -151,8 +159,8 @@ def draw(results: dict[str, Any], out: Path, references: Any) -> tuple[list[Pict
     for name in dict.fromkeys(case["case"] for case in results["cases"]):
         case = load_case(name)
 
-        def reference(variant: Variant, case: Any = case) -> Any:
-            return references.of(case, variant)
+        def reference(variant: Variant, reference: str = "", case: Any = case) -> Any:
+            return references.of(case, variant, reference)
 
         data = Data(case, [e for e in results["cases"] if e["case"] == name], out, reference)
         for kind in (*case.figures, "convergence", "cost"):

@@ -23,11 +23,11 @@ from reference import Reference
 from reference import load as load_reference
 from verification import baseline
 from verification.case import LEVELS, ROOT, SCHEMES, Case, CaseError, Variant, load_cases
-from verification.compare import Check, CheckResult, DataError, observed_order
+from verification.compare import EVERY, Check, CheckResult, DataError, observed_order
 from verification.execute import Outcome, execute, plan
-from verification.measure import error_of
 from verification.progress import Progress
-from verification.results import commit, entry, machine, summary
+from verification.results import commit, entry, machine, standing, summary
+from verification.truth import error_of
 
 REPOSITORY = ROOT.parent
 LoadReference = Callable[[str, Path, dict[str, object], Path], Reference]
@@ -42,8 +42,10 @@ def judge(outcomes: Sequence[Outcome], references: References, level: str) -> li
         run, results = outcome.run, []
         for check in run.case.checks(run.scheme, level, run.variant.name):
             key = (run.case.name, run.scheme, run.variant.name, check.quantity)
-            other = by_run.get((run.case.name, run.scheme, check.against or "", run.spacing))
-            result = _check(check, outcome, other, references)
+            every = [variant.name for variant in run.case.variants]
+            wanted = every if check.against == EVERY else [check.against] if check.against else []
+            others = {name: by_run.get((run.case.name, run.scheme, name, run.spacing)) for name in wanted}
+            result = _check(check, outcome, others, references)
             points = history.setdefault(key, [])
             points.append((run.spacing, result.value))
             if run.finest:
@@ -57,22 +59,21 @@ def judge(outcomes: Sequence[Outcome], references: References, level: str) -> li
     return judged
 
 
-def _check(check: Check, outcome: Outcome, other: Outcome | None, references: References) -> CheckResult:
+def _check(
+    check: Check, outcome: Outcome, others: dict[str, Outcome | None], references: References
+) -> CheckResult:
     run = outcome.run
-    result = CheckResult(check, math.nan, check.tolerance if run.finest else None)
+    result = CheckResult(check, math.nan, check.tolerance if run.finest else None, source=described(check))
     try:
-        if outcome.failure or (check.against and (other is None or other.failure)):
-            missing = other.failure if other else "not asked for"
-            raise DataError(outcome.failure or f"no run of {check.against}: {missing}")
-        reference = None
-        if check.against:
-            result.source = f"the run of {check.against}"
-        elif check.from_time is not None:
-            result.source = "its own final value"
-        else:
-            reference = references.of(run.case, run.variant)
+        if outcome.failure:
+            raise DataError(outcome.failure)
+        for name, other in others.items():
+            if other is None or other.failure:
+                raise DataError(f"no run of {name}: {other.failure if other else 'not asked for'}")
+        reference = references.of(run.case, run.variant, check.reference) if check.reference else None
+        if reference is not None:
             result.source = reference.source
-        result.value = error_of(check, outcome.result, reference, other.result if other else None)
+        result.value = error_of(check, outcome.result, reference, [o.result for o in others.values() if o])
     except DataError as error:
         result.reason = str(error)
     except Exception as error:  # whatever a reference raises fails its checks and must not stop the rest
@@ -80,19 +81,32 @@ def _check(check: Check, outcome: Outcome, other: Outcome | None, references: Re
     return result
 
 
+def described(check: Check) -> str:
+    """What a check without a reference is held against."""
+    if check.data is not None:
+        columns = f"{', '.join(check.data.columns)} of data/{check.data.file}"
+        return columns + (" against the band of all variants" if check.against == EVERY else "")
+    if check.against:
+        return f"the run of {check.against}"
+    if check.conserved:
+        return "the step before"
+    return check.source if check.value else "its own final value"
+
+
 class References:
-    """The reference of each case and variant, made once; its error is raised again for every check."""
+    """The references of each case and variant, made once; an error is raised again for every check."""
 
     def __init__(self, load: LoadReference = load_reference) -> None:
         self._load = load
-        self._made: dict[tuple[str, str], Reference | Exception] = {}
+        self._made: dict[tuple[str, str, str], Reference | Exception] = {}
 
-    def of(self, case: Case, variant: Variant) -> Reference:
-        key = (case.name, variant.name)
+    def of(self, case: Case, variant: Variant, name: str = "") -> Reference:
+        """The case's reference, or the one of that name."""
+        key = (case.name, variant.name, name or case.reference)
         if key not in self._made:
             try:
                 cache = REPOSITORY / "build" / "reference"
-                self._made[key] = self._load(case.reference, case.scene_path, dict(variant.set), cache)
+                self._made[key] = self._load(key[2], case.scene_path, dict(variant.set), cache)
             except Exception as error:
                 self._made[key] = error
         made = self._made[key]
@@ -103,28 +117,30 @@ class References:
     def prepare(self, wanted: Sequence[tuple[Case, Variant]]) -> None:
         """Makes the references before the runs: nothing slow may come after the last line of progress."""
         for case, variant in wanted:
-            if (case.name, variant.name) not in self._made:
-                print(f"reference: {case.name} {variant.name}", file=sys.stderr, flush=True)
-                with contextlib.suppress(Exception):  # of() raises it again for the checks
-                    self.of(case, variant)
+            for name in case.references(variant.name):
+                if (case.name, variant.name, name) not in self._made:
+                    print(f"reference: {case.name} {variant.name} {name}", file=sys.stderr, flush=True)
+                    with contextlib.suppress(Exception):  # of() raises it again for the checks
+                        self.of(case, variant, name)
 
     def facts(self) -> list[dict[str, Any]]:
         """What results.json says of every reference that was used."""
         keys = ("source", "kind", "error_estimate", "seconds", "digest")
         return [
-            {"case": case, "variant": variant} | {key: getattr(made, key) for key in keys}
-            for (case, variant), made in self._made.items()
+            {"case": case, "variant": variant, "name": name} | {key: getattr(made, key) for key in keys}
+            for (case, variant, name), made in self._made.items()
             if not isinstance(made, Exception)
         ]
 
 
 def print_verdict(results: dict[str, Any]) -> None:
-    for mark, wanted in (("FAILED", False), ("KNOWN SHORTFALL", True)):
+    marks = {"failed": "FAILED", "known": "KNOWN SHORTFALL", "reported": "REPORTED, NOT WITHIN"}
+    for style, mark in marks.items():
         for case in results["cases"]:
             for check in case["checks"]:
-                if not check["passed"] and check["known_shortfall"] is wanted:
+                if not check["passed"] and standing(check) == style:
                     name = f"{case['case']} {case['scheme']} {case['variant']} {case['spacing_m']:g} m"
-                    note = f" ({check['note']})" if wanted else ""
+                    note = f" ({check['note']})" if style == "known" else ""
                     print(f"{mark}: {name}: {check['quantity']}: {check['reason']}{note}")
     for line in baseline.lines(results):
         print(line)

@@ -72,7 +72,7 @@ def test_known_shortfalls_and_regressions_have_their_own_place(verified):
     results = json.loads((verified / "results.json").read_text())
     check = results["cases"][2]["checks"][0]
     check.update(passed=False, known_shortfall=True, note="start-up | singular", reason="error above")
-    row = {"key": "a/b", "accepted": 0.1, "value": 0.2, "status": "regression"}
+    row = {"key": "a/b", "accepted": 0.1, "value": 0.2, "status": "regression", "unit": ""}
     content = report.blocks(results | {"baseline": [row]}, [], [])
     page = report.to_html("title", False, content)
     assert '<tr class="known">' in page

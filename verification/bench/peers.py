@@ -31,9 +31,9 @@ from verification.bench.speed_error import point
 from verification.case import Case, CaseError, Variant, load_case
 from verification.compare import Array, Check, DataError, measure
 from verification.execute import Outcome
-from verification.measure import error_of
 from verification.results import commit, machine
 from verification.run import LoadReference, References
+from verification.truth import error_of
 
 SYSTEM_PYTHON = "/usr/bin/python3"  # the one that Debian's packages are for
 DRIVER = Path(__file__).resolve().parent / "pysph_example.py"
