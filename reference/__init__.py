@@ -10,7 +10,8 @@ from pathlib import Path
 from reference.base import Reference, ReferenceError
 from reference.scene import read_scene
 
-NAMES = ("start_up_couette", "start_up_poiseuille", "taylor_green", "channel_navier_stokes")
+WITH_DISCS = ("immersed_boundary",)
+NAMES = ("start_up_couette", "start_up_poiseuille", "taylor_green", "channel_navier_stokes", *WITH_DISCS)
 
 __all__ = ["NAMES", "Reference", "ReferenceError", "load"]
 
@@ -23,5 +24,7 @@ def load(name: str, scene_path: Path, overrides: Mapping[str, object], cache: Pa
     """
     if name not in NAMES:
         raise ReferenceError(f"no reference {name!r}; there are {', '.join(NAMES)}")
-    module = importlib.import_module(f"reference.{name}")
-    return module.create(read_scene(Path(scene_path), overrides), Path(cache))
+    scene = read_scene(Path(scene_path), overrides)
+    if name not in WITH_DISCS and (scene.discs or scene.gravity != (0.0, 0.0) or scene.dry):
+        raise scene.refuse(f"{name} is a flow without discs and gravity")
+    return importlib.import_module(f"reference.{name}").create(scene, Path(cache))

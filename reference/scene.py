@@ -1,4 +1,4 @@
-"""The physics of a scene file, as a reference needs it: domain, fluid, walls and start; never the numerics.
+"""The physics of a scene file, as a reference needs it: domain, fluid, walls, discs, start; no numerics.
 
 The solver validates a scene as a whole. Here only the tables read are checked, so that a misspelt key or
 override can never be left out of a reference in silence.
@@ -7,7 +7,7 @@ override can never be left out of a reference in silence.
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -36,17 +36,33 @@ class WallScene:
 
 
 @dataclass(frozen=True)
+class DiscScene:
+    name: str
+    radius: float  # m
+    position: tuple[float, float]  # m, of the centre at time 0
+    density: float  # kg/m3
+    motion: str  # "free", "fixed" or "prescribed"
+    velocity: tuple[float, float]  # m/s, at time 0, or always when prescribed
+    spin: float  # rad/s anticlockwise, likewise
+
+
+@dataclass(frozen=True)
 class Scene:
     path: Path
+    end_time: float  # s
     lower: tuple[float, float]  # m
     upper: tuple[float, float]  # m
     periodic: str
     density: float  # kg/m3
     dynamic_viscosity: float  # Pa s
     body_force: tuple[float, float]  # m/s2
+    gravity: tuple[float, float]  # m/s2
+    hydrostatics: str
     walls: tuple[WallScene, ...]
+    discs: tuple[DiscScene, ...]
     start_velocity: str
     start_speed: float  # m/s
+    dry: bool  # no fluid, discs alone
 
     @property
     def size(self) -> tuple[float, float]:
@@ -56,16 +72,25 @@ class Scene:
     def kinematic_viscosity(self) -> float:
         return self.dynamic_viscosity / self.density
 
+    def disc(self, name: str) -> DiscScene:
+        """Raises ReferenceError when there is no disc of that name."""
+        for disc in self.discs:
+            if disc.name == name:
+                return disc
+        raise self.refuse(f"no disc {name!r}, only {', '.join(disc.name for disc in self.discs) or 'none'}")
+
     def refuse(self, reason: str) -> ReferenceError:
         return ReferenceError(f"{self.path}: {reason}")
 
     def flow(self) -> dict[str, object]:
-        """Everything a flow between walls depends on; the identity of a reference is made from it."""
+        """Everything a flow between walls and discs depends on: a reference's identity is made from it."""
         walls = {
             wall.name: [wall.shape, wall.parameters, wall.fluid_side, wall.velocity] for wall in self.walls
         }
-        fluid = [self.density, self.dynamic_viscosity, self.body_force]
-        return {"domain": [self.lower, self.upper, self.periodic], "fluid": fluid, "walls": walls}
+        discs = {disc.name: list(astuple(disc)[1:]) for disc in self.discs}
+        fluid = [self.density, self.dynamic_viscosity, self.body_force, self.gravity, self.hydrostatics]
+        domain = [self.lower, self.upper, self.periodic]
+        return {"domain": domain, "fluid": fluid, "walls": walls, "discs": discs}
 
 
 class _Table:
@@ -176,6 +201,24 @@ def _read_wall(path: Path, content: object, number: int) -> WallScene:
     return wall
 
 
+def _read_disc(path: Path, content: object, number: int) -> DiscScene:
+    table = _Table(path, f"discs[{number}]", content)
+    name = str(table.take("name"))
+    table.name = f"discs.{name}"
+    table.choice("placement", ("single",))  # where the solver puts the others is not in the scene
+    disc = DiscScene(
+        name=name,
+        radius=table.number("radius", positive=True),
+        position=table.vector("position"),
+        density=table.number("density", positive=True),
+        motion=table.choice("motion", ("free", "fixed", "prescribed"), "free"),
+        velocity=table.vector("velocity", (0.0, 0.0)),
+        spin=table.number("spin", 0.0),
+    )
+    table.close()
+    return disc
+
+
 def read_scene(path: Path, overrides: Mapping[str, object]) -> Scene:
     """Raises ReferenceError: a file that cannot be read, a key missing, unknown or of the wrong type."""
     try:
@@ -187,18 +230,22 @@ def read_scene(path: Path, overrides: Mapping[str, object]) -> Scene:
     domain = _Table(path, "domain", tables.get("domain", {}))
     fluid = _Table(path, "fluid", tables.get("fluid", {}))
     start = _Table(path, "start", tables.get("start", {}))
-    walls = tables.get("walls", [])
     scene = Scene(
         path=path,
+        end_time=_Table(path, "output", tables.get("output", {})).number("end_time", 0.0),
         lower=domain.vector("lower"),
         upper=domain.vector("upper"),
         periodic=domain.choice("periodic", ("none", "x", "y", "xy"), "none"),
         density=fluid.number("density", positive=True),
         dynamic_viscosity=fluid.number("dynamic_viscosity", positive=True),
         body_force=fluid.vector("body_force", (0.0, 0.0)),
-        walls=tuple(_read_wall(path, wall, i) for i, wall in enumerate(walls)),
+        gravity=fluid.vector("gravity", (0.0, 0.0)),
+        hydrostatics=fluid.choice("hydrostatics", ("buoyancy", "full"), "buoyancy"),
+        walls=tuple(_read_wall(path, wall, i) for i, wall in enumerate(tables.get("walls", []))),
+        discs=tuple(_read_disc(path, disc, i) for i, disc in enumerate(tables.get("discs", []))),
         start_velocity=start.choice("velocity", ("rest", "shear", "taylor_green"), "rest"),
         start_speed=start.number("speed", 0.0),
+        dry=start.take("arrangement", "lattice") == "empty",
     )
     domain.close()
     fluid.close()
