@@ -3,12 +3,13 @@
 Equations and discretisation: immersed_boundary_flow.py (fluid), immersed_boundary_discs.py (rims and Newton's
 law), immersed_boundary_run.py (resolution, steps, contact).
 
-Own convergence: GRIDS grids, each with half the spacing of the one before. Until contact acts on any of them
-(`until`), the finest's result f3 is extrapolated to spacing zero, f3 + (f3 - f2) / (2^p - 1), p the observed
-order between 1 and 2. The largest size of that correction, which estimates the error of f3, is the error
-estimate: positions over the largest displacement, velocities over the largest speed, angle and spin likewise
-times the radius. `disc` is NaN after `until`: a check there fails and a plot ends. `finest` goes on to `end`,
-on the finest grid alone, for pictures: what follows contact depends on its model and amplifies disturbances.
+Own convergence: three grids, SHARES the shares of the finest's cells along an axis. With f(h) = f0 + C h^p
+for each quantity, p from the largest changes from grid to grid and held between 1 and 2, the result is f0,
+and the largest |f0 - f| of the finest grid is the error estimate: positions over the largest displacement,
+velocities over the largest speed, angle and spin likewise times the radius. This holds until discs, or a disc
+and a wall, first come closer than CLEARANCE diameters on any grid (`until`); after that `disc` is NaN, so
+that a check fails and a plot ends. `finest` goes on to `end`, on the finest grid alone, for pictures: what
+follows contact depends on its model and amplifies disturbances.
 
 The grids that such an estimate needs take minutes, too long for `make verify`. What its cases need is
 therefore stored as computed, every grid of it, in data/immersed_boundary_*.csv, by
@@ -26,11 +27,12 @@ from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
+from scipy.optimize import brentq
 
 from reference import base, immersed_boundary_discs, immersed_boundary_flow, immersed_boundary_run
 from reference import scene as scenes
 from reference.base import Array, ReferenceError, cache_file, digest_of, read_arrays, write_arrays
-from reference.immersed_boundary_discs import Disc
+from reference.immersed_boundary_discs import Contact, Disc
 from reference.immersed_boundary_run import Problem, run
 from reference.immersed_boundary_store import read_stored, write_stored
 from reference.scene import Scene
@@ -39,7 +41,8 @@ NAME = "immersed_boundary"
 MODULES = (base, scenes, immersed_boundary_flow, immersed_boundary_discs, immersed_boundary_run)
 SCRIPTS = tuple(Path(module.__file__) for module in MODULES)
 DATA = Path(__file__).resolve().parents[1] / "data"
-GRIDS = 3
+SHARES = (0.5, 0.75, 1.0)
+CLEARANCE = 0.25
 SAMPLES = 200
 GROUPS = {"position": slice(0, 2), "angle": slice(2, 3), "velocity": slice(3, 5), "spin": slice(5, 6)}
 QUANTITIES = {
@@ -95,11 +98,12 @@ def solve(problem: Problem, end: float) -> dict[str, Array]:
     """Runs every grid, the coarsest first, to `end` (s)."""
     started = time.perf_counter()
     times = np.linspace(0, end, SAMPLES + 1)
-    runs = [run(problem, problem.grid(coarsenings), times) for coarsenings in reversed(range(GRIDS))]
+    grids = [problem.grid(share) for share in SHARES]
+    runs = [run(problem, grid, times) for grid in grids]
     return {
         "times": times,
         "states": np.array([states for states, _ in runs]),
-        "cells": np.array([problem.grid(coarsenings).cells for coarsenings in reversed(range(GRIDS))]),
+        "cells": np.array([grid.cells for grid in grids]),
         "touched": np.array([min(touched, 2 * end) for _, touched in runs]),  # after the end: never
         "seconds": np.array(time.perf_counter() - started),
     }
@@ -116,9 +120,9 @@ class ImmersedBoundary:
         self.order = {disc.name: place for disc, place in zip(scene.discs, order, strict=True)}
         self.seconds, self.cells, self.touched = float(arrays["seconds"]), arrays["cells"], arrays["touched"]
         self.times, self.end = arrays["times"], float(arrays["times"][-1])
-        self.states = arrays["states"].copy()
-        self.states[..., :2] += scene.lower
-        before = self.times < self.touched.min()
+        self.shift = np.array([*scene.lower, 0, 0, 0, 0])
+        self.states = arrays["states"] + self.shift
+        before = self.times < self._near()
         self.until = float(self.times[before][-1])
         self.extrapolated = np.full_like(self.states[-1], np.nan)
         self.errors, self.orders = {}, {}
@@ -128,14 +132,27 @@ class ImmersedBoundary:
             self.errors[name] = error / self._scale(name)
         self.error_estimate = max(self.errors.values())
 
-    @staticmethod
-    def _extrapolated(grids: Array) -> tuple[Array, float, float]:
-        """Values at spacing zero, observed order, largest correction, of (grids, times, discs, parts)."""
-        first, last = grids[-2] - grids[-3], grids[-1] - grids[-2]
-        sizes = [float(np.abs(change).max()) for change in (first, last)]
-        ratio = np.clip(sizes[0] / sizes[1], 2, 4) if sizes[1] > 0 else 4.0
-        correction = last / (ratio - 1)
-        return grids[-1] + correction, math.log2(ratio), float(np.abs(correction).max())
+    def _near(self) -> float:
+        """The first sample at which a gap is below CLEARANCE diameters on some grid, infinite if none."""
+        radii = np.array([disc.radius for disc in self.problem.discs])
+        contact = Contact(radii, self.problem.grid(1.0), 2 * CLEARANCE * radii.min(), 1.0)
+        for number, time_now in enumerate(self.times):
+            if any(contact.forces(states[number] - self.shift).any() for states in self.states):
+                return float(time_now)
+        return math.inf
+
+    def _extrapolated(self, grids: Array) -> tuple[Array, float, float]:
+        """Values at spacing zero, order, largest change to the finest, of (grids, times, discs, parts)."""
+        spacings = self.cells[-1, 0] / self.cells[:, 0]
+        sizes = [float(np.abs(change).max()) for change in np.diff(grids, axis=0)]
+
+        def excess(order: float) -> float:
+            coarse, fine = -np.diff(spacings**order)
+            return sizes[0] * fine - sizes[1] * coarse
+
+        order = 1.0 if excess(1) <= 0 else 2.0 if excess(2) >= 0 else brentq(excess, 1, 2)
+        correction = (grids[-1] - grids[-2]) / (spacings[-2] ** order - 1)
+        return grids[-1] + correction, order, float(np.abs(correction).max())
 
     def _scale(self, group: str) -> float:
         """What an error of the group is divided by."""

@@ -1,8 +1,10 @@
 """One run of discs in a box of fluid on one grid, from what the motion depends on to its samples in time.
 
 Step: COURANT times the spacing over the speed of the fastest fluid, or over the scale of the discs' speeds
-until that is reached. Contact (Contact in immersed_boundary_discs.py) begins CONTACT_CELLS spacings between
-rims, where the grid no longer resolves the fluid between them.
+until that is reached; at most MOST_DIFFUSION. The first is FIRST_STEP of that and the next ones are longer by
+GROWTH, because a disc set free needs some twenty steps to take the fluid along. Contact
+(immersed_boundary_discs.py) begins at CONTACT_CELLS spacings between rims, where the grid no longer resolves
+the fluid between them.
 """
 
 import json
@@ -10,7 +12,6 @@ import math
 from dataclasses import astuple, dataclass
 
 import numpy as np
-from scipy import fft
 from scipy.interpolate import CubicHermiteSpline
 
 from reference.base import Array, ReferenceError
@@ -18,8 +19,11 @@ from reference.immersed_boundary_discs import Contact, Disc, Discs
 from reference.immersed_boundary_flow import Flow, Grid
 
 FINEST_CELLS = 32  # to the smallest diameter
-LAYER_CELLS = 3  # to the thickness of boundary layers
+LAYER_CELLS = 1.5  # to the thickness of boundary layers
 COURANT = 0.5
+MOST_DIFFUSION = 4  # viscosity times step over squared spacing
+FIRST_STEP = 0.02
+GROWTH = 1.1
 CONTACT_CELLS = 2
 
 
@@ -45,15 +49,15 @@ class Problem:
         given = [math.hypot(*disc.velocity) + abs(disc.spin) * disc.radius for disc in self.discs]
         return max(math.sqrt(math.pi * math.hypot(*self.gravity) * max(falls, default=0)), *given)
 
-    def grid(self, coarsenings: int) -> Grid:
-        """The finest grid, its spacing doubled that often.
+    def grid(self, share: float) -> Grid:
+        """A grid with that share of the finest's cells along an axis.
 
-        It has FINEST_CELLS or more to the smallest diameter D, and LAYER_CELLS or more to D / sqrt(Re).
+        The finest has FINEST_CELLS or more to the smallest diameter D, LAYER_CELLS or more to D / sqrt(Re).
         """
         diameter = 2 * min(disc.radius for disc in self.discs)
         layer = LAYER_CELLS * math.sqrt(self.speed() * diameter / self.viscosity)
-        cells = 2 ** math.ceil(math.log2(max(FINEST_CELLS, layer))) / 2**coarsenings
-        counts = [fft.next_fast_len(round(cells * size / diameter), real=True) for size in self.size]
+        cells = share * 2 ** math.ceil(math.log2(max(FINEST_CELLS, layer)))
+        counts = [round(cells * size / diameter) for size in self.size]
         return Grid((counts[0], counts[1]), self.size, self.periodic)
 
 
@@ -74,10 +78,13 @@ def run(problem: Problem, grid: Grid, times: Array) -> tuple[Array, float]:
     acted (s), infinite if never. Raises ReferenceError when the run breaks down.
     """
     discs, speed, end = prepared(problem, grid), problem.speed(), float(times[-1])
+    spacing = min(grid.spacing)
+    slowest = problem.viscosity / (MOST_DIFFUSION * spacing**2)  # steps a second
     now, stamps, states, touched = 0.0, [0.0], [np.hstack((discs.place, discs.velocity))], math.inf
     while now < end:
         fastest = max(speed, sum(float(np.abs(field).max()) for field in discs.flow.velocity))
-        left = math.ceil((end - now) * fastest / (COURANT * min(grid.spacing)))
+        rate = max(fastest / (COURANT * spacing), slowest)
+        left = math.ceil((end - now) * max(rate, rate / FIRST_STEP / GROWTH ** len(stamps)))
         discs.step((end - now) / left)
         now = end if left == 1 else now + (end - now) / left
         stamps.append(now)
