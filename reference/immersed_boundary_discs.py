@@ -19,8 +19,8 @@ Measured with one disc (1250 kg/m3, nu 1e-5 m2/s), speed after 0.1 s in m/s on 8
 retraction 0.3: 0.0396, 0.0404; 0.4: 0.0407, 0.0409. One round or six, and steps 2.5 times shorter: the same
 to 0.1 %; such steps without the old forces in u*: 0.5 % slower. The torque on a turning disc, 16 cells, wants
 0.3: 0.2 % too large there, 2.4 % too small with 0.4, and fluid without viscosity (1e-8 m2/s) dragged along
-makes the added mass 23 % too large there, of first order. More than two rounds lose a disc a tenth as
-heavy as such a fluid; two keep it.
+makes the added mass 23 % too large there, of first order. Six rounds lose a disc a tenth as heavy as such a
+fluid; two keep it.
 """
 
 import math
