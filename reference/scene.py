@@ -49,6 +49,7 @@ class DiscScene:
 @dataclass(frozen=True)
 class Scene:
     path: Path
+    end_time: float  # s
     lower: tuple[float, float]  # m
     upper: tuple[float, float]  # m
     periodic: str
@@ -231,6 +232,7 @@ def read_scene(path: Path, overrides: Mapping[str, object]) -> Scene:
     start = _Table(path, "start", tables.get("start", {}))
     scene = Scene(
         path=path,
+        end_time=_Table(path, "output", tables.get("output", {})).number("end_time", 0.0),
         lower=domain.vector("lower"),
         upper=domain.vector("upper"),
         periodic=domain.choice("periodic", ("none", "x", "y", "xy"), "none"),
