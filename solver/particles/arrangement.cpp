@@ -6,6 +6,7 @@
 #include "solver/discs/placement.hpp"
 #include "solver/kernels/quintic_spline.hpp"
 #include "solver/loop/interactions.hpp"
+#include "solver/terms/equation_of_state.hpp"
 
 #include <gsl/gsl_rng.h>
 
@@ -100,6 +101,23 @@ void relax(Particles& particles, const Scene& scene) {
     }
 }
 
+// Along axes that are closed, the fluid starts with the pressure that holds it against its body force.
+void balance_body_force(FluidParticles& fluid, const Scene& scene) {
+    Vector force = scene.fluid.acceleration();
+    for (const int axis : {0, 1}) {
+        force[axis] *= scene.domain.periodic[static_cast<std::size_t>(axis)] ? 0 : 1;
+    }
+    if (force.isZero(0)) {
+        return;
+    }
+    const EquationOfState equation_of_state{scene.fluid.density, scene.numerics.sound_speed};
+    const Vector middle = (scene.domain.lower + scene.domain.upper) / 2;
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        const double potential = force.dot(Vector(fluid.x[i], fluid.y[i]) - middle);
+        fluid.density[i] = equation_of_state.density(scene.fluid.density * potential);
+    }
+}
+
 void set_velocity(FluidParticles& fluid, const Start& start, const Domain& domain) {
     const Vector size = domain.size();
     for (std::size_t i = 0; i < fluid.size(); ++i) {
@@ -153,13 +171,16 @@ Particles arrange_particles(const Scene& scene, const Region& region) {
         fluid.y[i] = points[i].y();
         fluid.density[i] = scene.fluid.density;
     }
-    fluid.mass =
-        scene.fluid.density * fluid_area(region, particles.discs) / static_cast<double>(points.size());
+    // A box without fluid has particles of a mass, too: none.
+    fluid.mass = scene.fluid.density *
+                 (points.empty() ? spacing * spacing
+                                 : fluid_area(region, particles.discs) / static_cast<double>(points.size()));
     place_dummies(particles.dummies, scene, region);
     append_disc_dummies(particles, scene.numerics.disc_dummies, spacing, dummy_layers(scene.numerics));
     if (scene.start.arrangement == Arrangement::relaxed) {
         relax(particles, scene);
     }
+    balance_body_force(fluid, scene);
     set_velocity(fluid, scene.start, scene.domain);
     return particles;
 }
