@@ -42,6 +42,10 @@ void drift_discs(Particles& particles, double time) {
 void sum_disc_forces(Particles& particles, const Fluid& fluid) {
     for (Disc& disc : particles.discs) {
         disc.force.setZero();
+        if (particles.fluid.size() == 0) {
+            disc.torque = 0;
+            continue;
+        }
         // Eq. 2.15 diffuses each component of the velocity: its traction is eta dv/dn. What the rest of the
         // stress, eta (grad v)^T . n, does to a body that does not slip follows from its spin alone: no net
         // force, and this torque. Without it a free disc in a shear flow turns at twice the right rate.

@@ -14,7 +14,8 @@ namespace slurry {
 template <class Real> class PassRows {
   public:
     PassRows(const Scene& scene, const PeriodicRows& periodic)
-        : units_(scene), wall_continuity_(scene.numerics.wall_continuity), periodic_(periodic) {}
+        : units_(scene), wall_continuity_(scene.numerics.wall_continuity),
+          kinematic_viscosity_(std::max(scene.fluid.kinematic_viscosity(), 1e-300)), periodic_(periodic) {}
 
     [[nodiscard]] std::span<const Row<Real>> rows() const { return rows_; }
     [[nodiscard]] std::size_t bytes() const { return rows_.capacity() * sizeof(Row<Real>); }
@@ -136,7 +137,12 @@ template <class Real> class PassRows {
             return extrapolated;
         case WallContinuity::solenoidal: {
             const Vector along(dummies.normal_y[d], -dummies.normal_x[d]);
-            return own + along.dot(extrapolated - own) * along + dummies.normal_velocity[d] * left_of(along);
+            const double slip = along.dot(extrapolated - own);
+            // A boundary layer thinner than the dummy is deep says nothing about it: the wall's own velocity
+            // then.
+            const double reynolds = slip * dummies.depth[d] / kinematic_viscosity_;
+            return own +
+                   (slip * along + dummies.normal_velocity[d] * left_of(along)) / (1 + reynolds * reynolds);
         }
         case WallContinuity::wall_velocity:
             break;
@@ -187,6 +193,7 @@ template <class Real> class PassRows {
 
     Units units_;
     WallContinuity wall_continuity_;
+    double kinematic_viscosity_; // m2/s
     const PeriodicRows& periodic_;
     double per_length_ = 1 / units_.length;
     double per_velocity_ = 1 / units_.velocity;

@@ -16,7 +16,8 @@ namespace slurry {
 enum class Scheme : std::uint8_t { standard, wang2014 };
 enum class DummyLayout : std::uint8_t { curve, lattice };
 // Which velocity of a wall's dummies the continuity equation sees: the wall's own, the extrapolated one
-// (2.16), or the extrapolated one along the wall with, across it, what keeps the volume.
+// (2.16), or the extrapolated one along the wall with, across it, what keeps the volume (as far as the
+// dummy's boundary layer is resolved).
 enum class WallContinuity : std::uint8_t { wall_velocity, extrapolated, solenoidal };
 // Particle volume in the forces: m / rho, or 1 / sum W (below Eq. 2.8).
 enum class ParticleVolume : std::uint8_t { mass_over_density, number_density };
@@ -78,9 +79,9 @@ struct Numerics {
     bool advection_tensor = true;
     PressureMean pressure_mean = PressureMean::density_weighted;
     DummyLayout wall_dummies = DummyLayout::curve;
-    DiscDummies disc_dummies = DiscDummies::rings;
+    DiscDummies disc_dummies = DiscDummies::lattice;
     WallExtrapolation wall_extrapolation = WallExtrapolation::fit;
-    WallContinuity wall_continuity = WallContinuity::wall_velocity;
+    WallContinuity wall_continuity = WallContinuity::solenoidal;
     ParticleVolume particle_volume = ParticleVolume::mass_over_density;
     NeighbourSearch neighbour_search = NeighbourSearch::strips;
 

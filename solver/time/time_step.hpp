@@ -22,7 +22,7 @@ inline double largest_time_step(const Scene& scene) {
 
 // The same where discs may touch: a step of theirs resolves the stiffest contact.
 inline double largest_time_step(const Scene& scene, double contact_frequency) {
-    constexpr double share_of_period = 1.0 / 25;
+    constexpr double share_of_period = 1.0 / 12;
     const double fluid = largest_time_step(scene);
     return contact_frequency > 0 ? std::min(fluid, share_of_period * 2 * std::numbers::pi / contact_frequency)
                                  : fluid;

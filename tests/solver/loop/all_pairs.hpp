@@ -17,7 +17,7 @@ namespace slurry::testing {
 class AllPairs {
   public:
     AllPairs(const Scene& scene, Particles& particles)
-        : scene_(scene), fluid_(particles.fluid), dummies_(particles.dummies),
+        : scene_(scene), fluid_(particles.fluid), dummies_(particles.dummies), discs_(particles.discs),
           h_(scene.numerics.smoothing_length()) {
         find_pairs();
     }
@@ -68,7 +68,8 @@ class AllPairs {
             const Vector reflected = 2 * wall_velocity(d) - velocity * inverse;
             dummies_.velocity_x[d] = reflected.x();
             dummies_.velocity_y[d] = reflected.y();
-            dummies_.pressure[d] = (pressure + scene_.fluid.body_force.dot(lever)) * inverse;
+            dummies_.pressure[d] =
+                (pressure + (scene_.fluid.body_force - spin_acceleration(d)).dot(lever)) * inverse;
         }
     }
 
@@ -87,12 +88,14 @@ class AllPairs {
                 const double root = std::sqrt(weight);
                 no_slip.row(k) = root * Eigen::RowVector3d(n, n * s, n * n);
                 linear.row(k) = root * Eigen::RowVector3d(1, s, n);
-                velocity.row(k) = root * (velocity_of(f) - wall_velocity(d)).transpose();
+                velocity.row(k) = root * (velocity_of(f) - rigid_velocity(d, s, n)).transpose();
                 pressure(k, 0) = root * fluid_.pressure[f];
             }
             const double n = -dummies_.depth[d] / h_;
             const Eigen::MatrixXd b = least_squares(no_slip, velocity);
-            const Vector continued = wall_velocity(d) + n * (b.row(0) + n * b.row(2)).transpose();
+            const Vector continued = rigid_velocity(d, 0, n) + n * (b.row(0) + n * b.row(2)).transpose();
+            const Vector along(dummies_.normal_y[d], -dummies_.normal_x[d]);
+            dummies_.normal_velocity[d] = -0.5 * n * n * b.row(1).dot(along);
             const Eigen::MatrixXd c = least_squares(linear, pressure);
             dummies_.velocity_x[d] = continued.x();
             dummies_.velocity_y[d] = continued.y();
@@ -264,8 +267,40 @@ class AllPairs {
         return {dummies_.solid_velocity_x[d], dummies_.solid_velocity_y[d]};
     }
     [[nodiscard]] Vector continuity_velocity(std::size_t j) const {
-        const bool walls_own = scene_.numerics.wall_continuity == WallContinuity::wall_velocity;
-        return !is_fluid(j) && walls_own ? wall_velocity(j - fluid_.size()) : velocity_of(j);
+        if (is_fluid(j) || scene_.numerics.wall_continuity == WallContinuity::extrapolated) {
+            return velocity_of(j);
+        }
+        const std::size_t d = j - fluid_.size();
+        if (scene_.numerics.wall_continuity == WallContinuity::wall_velocity) {
+            return wall_velocity(d);
+        }
+        const Vector normal(dummies_.normal_x[d], dummies_.normal_y[d]);
+        const Vector relative = velocity_of(j) - wall_velocity(d);
+        const Vector slip = relative - relative.dot(normal) * normal;
+        const double reynolds =
+            slip.norm() * dummies_.depth[d] / std::max(scene_.fluid.kinematic_viscosity(), 1e-300);
+        return wall_velocity(d) + (slip + dummies_.normal_velocity[d] * normal) / (1 + reynolds * reynolds);
+    }
+    // Of a disc that nothing but its spin accelerates.
+    [[nodiscard]] Vector spin_acceleration(std::size_t d) const {
+        if (!dummies_.of_disc(d)) {
+            return Vector::Zero();
+        }
+        const Disc& disc = discs_[dummies_.disc(d)];
+        return -disc.spin * disc.spin * (disc.radius - dummies_.depth[d]) *
+               Vector(dummies_.normal_x[d], dummies_.normal_y[d]);
+    }
+    // Of the wall or disc of a dummy, at wall coordinates in smoothing lengths.
+    [[nodiscard]] Vector rigid_velocity(std::size_t d, double s, double n) const {
+        if (!dummies_.of_disc(d)) {
+            return wall_velocity(d);
+        }
+        const Disc& disc = discs_[dummies_.disc(d)];
+        const Vector normal(dummies_.normal_x[d], dummies_.normal_y[d]);
+        const Vector along(normal.y(), -normal.x());
+        const double across = n + dummies_.curvature[d] * h_ * s * s / 2;
+        const Vector arm = disc.radius * normal + h_ * (across * normal + s * along);
+        return disc.velocity + disc.spin * left_of(arm);
     }
     [[nodiscard]] double volume(std::size_t j) const {
         return is_fluid(j) ? fluid_.volume[j] : dummies_.volume[j - fluid_.size()];
@@ -288,6 +323,7 @@ class AllPairs {
     const Scene& scene_;
     FluidParticles& fluid_;
     DummyParticles& dummies_;
+    const std::vector<Disc>& discs_;
     double h_;
     std::vector<std::vector<Other>> others_; // per particle
 };

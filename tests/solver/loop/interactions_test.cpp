@@ -32,7 +32,9 @@ Scene composed(unsigned bits, bool walls) {
     scene.numerics.advection_tensor = bit(5);
     scene.numerics.particle_volume =
         bit(6) ? ParticleVolume::number_density : ParticleVolume::mass_over_density;
-    scene.numerics.wall_continuity = bit(7) ? WallContinuity::extrapolated : WallContinuity::wall_velocity;
+    scene.numerics.wall_continuity = bit(7)   ? WallContinuity::extrapolated
+                                     : bit(8) ? WallContinuity::solenoidal
+                                              : WallContinuity::wall_velocity;
     scene.numerics.wall_extrapolation = bit(8) ? WallExtrapolation::fit : WallExtrapolation::mean;
     return scene;
 }
@@ -154,6 +156,18 @@ TEST(Interactions, AgreeWithTheEquationsBesideASteepWallThatCrossesAPeriodicSide
             scene.numerics.wall_extrapolation = extrapolation;
             expect_all_pairs(scene);
         }
+    }
+}
+
+TEST(Interactions, AgreeWithTheEquationsAroundADiscThatSpins) {
+    for (const unsigned bits : {0U, 255U, 256U, compositions - 1}) { // means and fits
+        SCOPED_TRACE("composition " + std::to_string(bits));
+        Scene scene = composed(bits, true);
+        scene.discs = {middle_disc()};
+        scene.discs[0].velocity = {0.7, -0.4};
+        scene.discs[0].spin = 3;
+        expect_all_pairs(scene);
+        expect_same_results(evaluated(scene, LoopWidth::native), evaluated(scene, LoopWidth::plain), 1e-12);
     }
 }
 
