@@ -8,11 +8,11 @@ namespace slurry {
 
 namespace {
 
-void append_ring(std::vector<DiscPoint>& points, double outer, double inner) {
+void append_ring(std::vector<DiscPoint>& points, double outer, double inner, double particle_spacing) {
     constexpr double turn = 2 * std::numbers::pi;
     const double radius = (outer + inner) / 2;
-    const double count = std::max(1.0, std::round(turn * radius / (outer - inner)));
     const double area = std::numbers::pi * (outer * outer - inner * inner);
+    const double count = std::max(1.0, std::round(area / (particle_spacing * particle_spacing)));
     for (int k = 0; k < static_cast<int>(count); ++k) {
         const double angle = turn * k / count;
         points.push_back(
@@ -31,7 +31,7 @@ std::vector<DiscPoint> disc_points(double radius, DiscDummies arrangement, doubl
             const double outer = radius - layer * particle_spacing;
             // A rest of less than half a spacing at the centre belongs to the last ring.
             const double inner = outer < 1.5 * particle_spacing ? 0 : outer - particle_spacing;
-            append_ring(points, outer, inner);
+            append_ring(points, outer, inner, particle_spacing);
             if (inner == 0) {
                 break;
             }

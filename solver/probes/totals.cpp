@@ -30,8 +30,7 @@ Totals fluid_totals(std::span<const double> velocity_x, std::span<const double> 
     }
     return {.kinetic_energy = 0.5 * particle_mass * square_sum,
             .momentum = particle_mass * velocity_sum,
-            .mean_density =
-                density.empty() ? reference_density : density_sum / static_cast<double>(density.size()),
+            .mean_density = density_sum / static_cast<double>(density.size()),
             .largest_speed = std::sqrt(largest_square),
             .largest_density_error = largest_density_error};
 }

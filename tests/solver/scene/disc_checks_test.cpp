@@ -49,9 +49,9 @@ TEST_F(ReadDiscs, AreLeftOutOfScenesWithoutThem) {
     EXPECT_EQ(scene.fluid.hydrostatics, Hydrostatics::buoyancy);
 }
 
-TEST_F(ReadDiscs, TakeTheSchemesParticles) {
-    EXPECT_EQ(read(full_scene).numerics.disc_dummies, DiscDummies::rings);
-    EXPECT_EQ(read(full_scene, {"scene.scheme=wang2014"}).numerics.disc_dummies, DiscDummies::lattice);
+TEST_F(ReadDiscs, HaveTheirParticlesOnALatticeOrOnRings) {
+    EXPECT_EQ(read(full_scene).numerics.disc_dummies, DiscDummies::lattice);
+    EXPECT_EQ(read(full_scene, {"numerics.disc_dummies=rings"}).numerics.disc_dummies, DiscDummies::rings);
 }
 
 TEST_F(ReadDiscs, MayBeAloneWithoutFluid) {

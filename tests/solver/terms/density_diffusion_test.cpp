@@ -81,7 +81,8 @@ Particles hydrostatic(const Scene& scene) {
     const double c = scene.numerics.sound_speed;
     const Vector slope = scene.fluid.density / (c * c) * scene.fluid.body_force;
     for (std::size_t i = 0; i < particles.fluid.size(); ++i) {
-        particles.fluid.density[i] += slope.dot(Vector(particles.fluid.x[i], particles.fluid.y[i]));
+        particles.fluid.density[i] =
+            scene.fluid.density + slope.dot(Vector(particles.fluid.x[i], particles.fluid.y[i]));
     }
     return particles;
 }

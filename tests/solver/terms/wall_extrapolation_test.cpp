@@ -67,6 +67,7 @@ TEST(WallExtrapolation, ContinuesAHydrostaticPressureIntoTheWall) {
     FluidParticles& fluid = particles.fluid;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         fluid.pressure[i] = pressure_at(fluid.x[i], fluid.y[i]);
+        fluid.density[i] = scene.fluid.density;
     }
     extrapolate(scene, particles);
     const DummyParticles& dummies = particles.dummies;
