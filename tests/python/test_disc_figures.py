@@ -52,7 +52,8 @@ def test_vorticity_of_a_linear_flow_is_exact():
 
 class Flat:
     def disc(self, name, field, t):
-        return np.full(np.shape(t), -1e-7)
+        vector = field in ("position", "velocity")
+        return np.full((*np.shape(t), 2) if vector else np.shape(t), -1e-7)
 
 
 def data_of(case_name, tmp_path, names, monkeypatch, run=None, **series):
@@ -93,7 +94,7 @@ def test_every_figure_of_the_cases_can_be_drawn(tmp_path, monkeypatch, case, nam
 def test_the_ensemble_is_a_band(tmp_path, monkeypatch):
     data = data_of("disc_pair_ensemble", tmp_path, ("leading", "trailing"), monkeypatch)
     labels = FIGURES["positions"](data).axes[0].get_legend_handles_labels()[1]
-    assert labels == ["uhlmann", "koblitz", "SPH, 8 members"]
+    assert labels == ["uhlmann", "koblitz", "SPH, 9 members"]
 
 
 def test_a_figure_without_its_run_or_panels_says_so(tmp_path, monkeypatch):

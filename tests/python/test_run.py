@@ -224,7 +224,10 @@ def test_every_case_is_complete():
         assert (case.scene_path.parent / "README.md").exists()
         assert case.schemes == (SCHEMES if case.name in FLOWS else ("default",))
         for level, variant in itertools.product(LEVELS, case.variants):
-            assert len(case.spacings("default", level, variant.name)) >= (3 if case.name in FLOWS else 1)
+            fewest = {"disc_pair_ensemble": 0 if level == "gate" else 1}.get(
+                case.name, 1
+            )  # too long for the gate
+            assert len(case.spacings("default", level, variant.name)) >= (3 if case.name in FLOWS else fewest)
             assert case.checks("default", level, variant.name)
             for check in case.checks("default", level, variant.name):
                 if check.data:
