@@ -63,12 +63,14 @@ format: setup ## Rewrite C++ and Python files in the house's format
 	@$(PYTHON) -m ruff check --fix-only --quiet .
 	@$(PYTHON) -m ruff format .
 
-docs: build ## Write docs/scene.md, and from the last results README's table and docs/rough_channel.png
+docs: build ## Write docs/scene.md, and from the last results README's table and the pictures in docs/
 	@mkdir -p docs
 	@$(BUILD)/slurry help scene --markdown >$(BUILD)/scene.md
 	@mv $(BUILD)/scene.md docs/scene.md
 	@[ ! -e $(BUILD)/verify/results.json ] || \
 	    $(PYTHON) -m verification.report --readme README.md --picture docs/rough_channel.png
+	@[ ! -e $(BUILD)/verify/figures/disc_pair_snapshots.png ] || \
+	    cp $(BUILD)/verify/figures/disc_pair_snapshots.png docs/disc_pair.png
 
 clean: ## Remove build/ (also the cached references and the last results)
 	rm -rf $(BUILD)

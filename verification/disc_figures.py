@@ -97,7 +97,12 @@ def _panel(axes: Axes, data: Data, panel: Mapping[str, Any]) -> None:
     for column, curve, marker in zip(published.columns, values.T, MARKERS, strict=False):
         author = column.split("_")[0]
         axes.plot(times, curve, marker, color="black", fillstyle="none", markersize=3.5, label=author)
-    runs = [data.result(variant).disc(panel["disc"], panel["field"]) for variant in data.case.variants]
+    variants = [
+        variant for variant in data.case.variants if data.results(variant)
+    ]  # others are for another level
+    if not variants:
+        raise DataError("no variant was run")
+    runs = [data.result(variant).disc(panel["disc"], panel["field"]) for variant in variants]
     if len(runs) > MOST_LINES:
         stamps = runs[0][0]
         members = np.array([np.interp(stamps, *run) for run in runs])
@@ -106,9 +111,9 @@ def _panel(axes: Axes, data: Data, panel: Mapping[str, Any]) -> None:
         )
         axes.plot(stamps, members.T, color=COLOURS[0], linewidth=0.5)
     else:
-        for variant, run, colour in zip(data.case.variants, runs, COLOURS, strict=False):
+        for variant, run, colour in zip(variants, runs, COLOURS, strict=False):
             axes.plot(*run, color=colour, label=data.label(variant.name))
-    variant = data.case.variants[0]
+    variant = variants[0]
     for name in data.case.references(variant.name):
         truth = of_disc(data.reference(variant, name), panel["disc"], panel["field"], runs[0][0])
         axes.plot(runs[0][0], truth, "--", color=COLOURS[3], label=name.replace("_", " "))
