@@ -130,24 +130,18 @@ template <class Real> class PassRows {
     static Row<Real> row(std::convertible_to<double> auto... values) { return {{Real(values)...}}; }
 
     [[nodiscard]] Vector continuity_velocity(const DummyParticles& dummies, std::size_t d) const {
+        if (wall_continuity_ == WallContinuity::wall_velocity) {
+            return {dummies.solid_velocity_x[d], dummies.solid_velocity_y[d]};
+        }
+        if (wall_continuity_ == WallContinuity::extrapolated) {
+            return {dummies.velocity_x[d], dummies.velocity_y[d]};
+        }
         const Vector own(dummies.solid_velocity_x[d], dummies.solid_velocity_y[d]);
-        const Vector extrapolated(dummies.velocity_x[d], dummies.velocity_y[d]);
-        switch (wall_continuity_) {
-        case WallContinuity::extrapolated:
-            return extrapolated;
-        case WallContinuity::solenoidal: {
-            const Vector along(dummies.normal_y[d], -dummies.normal_x[d]);
-            const double slip = along.dot(extrapolated - own);
-            // A boundary layer thinner than the dummy is deep says nothing about it: the wall's own velocity
-            // then.
-            const double reynolds = slip * dummies.depth[d] / kinematic_viscosity_;
-            return own +
-                   (slip * along + dummies.normal_velocity[d] * left_of(along)) / (1 + reynolds * reynolds);
-        }
-        case WallContinuity::wall_velocity:
-            break;
-        }
-        return own;
+        const Vector along(dummies.normal_y[d], -dummies.normal_x[d]);
+        const double slip = along.dot(Vector(dummies.velocity_x[d], dummies.velocity_y[d]) - own);
+        // Less of it where the boundary layer is thinner than the dummy is deep, and says nothing about it.
+        const double reynolds = slip * dummies.depth[d] / kinematic_viscosity_;
+        return own + (slip * along + dummies.normal_velocity[d] * left_of(along)) / (1 + reynolds * reynolds);
     }
 
     // Of a rigid body at one of its particles, m/s2.

@@ -85,17 +85,24 @@ void write_run_attributes(ResultFile& file, const Particles& particles, long ste
     write_list_attributes(file, particles, lists);
 }
 
+Particles timed_start(const Scene& scene, const Region& region, PhaseClock& clock) {
+    const PhaseClock::Scope scope(clock, "start");
+    return arrange_particles(scene, region);
+}
+
+void print_summary(const RunSummary& summary, const Particles& particles, const PhaseClock& clock) {
+    const auto count = particles.fluid.size() + particles.dummies.size();
+    fmt::print(std::cout, "{}\n{}", summary.result.string(),
+               clock.summary(static_cast<std::int64_t>(count), summary.steps));
+}
+
 } // namespace
 
 RunSummary run_scene(const Scene& scene, const RunOptions& options) {
     PhaseClock clock;
     const Region region(scene);
     ResultFile file(options.folder, scene, SLURRY_VERSION, options.overwrite);
-    Particles particles;
-    {
-        const PhaseClock::Scope scope(clock, "start");
-        particles = arrange_particles(scene, region);
-    }
+    Particles particles = timed_start(scene, region, clock);
     const int threads = useful_threads(options.threads, particles);
     omp_set_num_threads(threads);
     const auto sums = make_interactions(scene);
@@ -125,9 +132,7 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
     write_run_attributes(file, particles, steps, time_step, threads, clock, sums->list_statistics(particles));
     RunSummary summary{file.finish(), steps};
     if (!options.quiet) {
-        const auto count = particles.fluid.size() + particles.dummies.size();
-        fmt::print(std::cout, "{}\n{}", summary.result.string(),
-                   clock.summary(static_cast<std::int64_t>(count), steps));
+        print_summary(summary, particles, clock);
     }
     return summary;
 }
