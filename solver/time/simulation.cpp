@@ -107,8 +107,8 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
     omp_set_num_threads(threads);
     const auto sums = make_interactions(scene);
     DiscContacts contacts(scene, region);
-    const long steps =
-        step_count(scene, largest_time_step(scene, contacts.highest_frequency(particles.discs)));
+    const long steps = step_count(
+        scene, largest_time_step(scene, particles.discs, contacts.highest_frequency(particles.discs)));
     const double time_step = scene.output.end_time / static_cast<double>(steps);
     Forces forces{*sums, contacts, scene.fluid, scene.numerics.sound_speed};
     const long check_interval = std::max(1L, steps / checks_per_run);
@@ -140,8 +140,8 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
 std::string describe_scene(const Scene& scene) {
     const Region region(scene);
     const Particles particles = arrange_particles(scene, region);
-    const double time_step =
-        largest_time_step(scene, DiscContacts(scene, region).highest_frequency(particles.discs));
+    const double time_step = largest_time_step(
+        scene, particles.discs, DiscContacts(scene, region).highest_frequency(particles.discs));
     std::string text =
         fmt::format("fluid particles   {}\ndummy particles   {}\ndiscs             {}\n"
                     "time step         {:.4g} s\nsteps             {}\n"

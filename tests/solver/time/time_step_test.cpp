@@ -38,5 +38,25 @@ TEST(TimeStep, FactorsOfTheSceneReplaceTheQuarter) {
     }
 }
 
+TEST(TimeStep, IsShorterForStiffContactsAndLightDiscs) {
+    Scene scene = scene_of(1, 1);
+    const double fluid = largest_time_step(scene);
+    const auto disc_of = [&](double density) {
+        Disc disc;
+        disc.radius = 0.6; // 5 smoothing lengths
+        disc.mass = density * scene.fluid.density * disc.area();
+        return std::vector{disc};
+    };
+    EXPECT_EQ(largest_time_step(scene, {}, 0), fluid);
+    EXPECT_EQ(largest_time_step(scene, disc_of(1), 0), fluid);
+    EXPECT_DOUBLE_EQ(largest_time_step(scene, disc_of(1), 1e4), 2 * std::numbers::pi / 12e4);
+    EXPECT_DOUBLE_EQ(largest_time_step(scene, disc_of(0.005), 0), std::sqrt(0.025) * 0.12 / 10); // stiffness
+    scene.fluid.dynamic_viscosity = 1e4;
+    EXPECT_DOUBLE_EQ(largest_time_step(scene, disc_of(0.01), 0), 0.14 * 0.05 * 0.12 * 0.12 / 10); // drag
+    auto held = disc_of(0.01);
+    held[0].motion = DiscMotion::fixed;
+    EXPECT_EQ(largest_time_step(scene, held, 0), largest_time_step(scene));
+}
+
 } // namespace
 } // namespace slurry::testing
