@@ -1,10 +1,12 @@
 // The command line: `slurry run|check|info SCENE`, `slurry help scene`, `slurry bench`.
 #include "solver/bench/bench.hpp"
+#include "solver/discs/motion.hpp"
 #include "solver/discs/placement.hpp"
 #include "solver/geometry/geometry_error.hpp"
 #include "solver/geometry/region.hpp"
 #include "solver/output/partial_file.hpp"
 #include "solver/output/result_file.hpp"
+#include "solver/particles/arrangement.hpp"
 #include "solver/scene/manual.hpp"
 #include "solver/scene/read_scene.hpp"
 #include "solver/time/simulation.hpp"
@@ -71,10 +73,11 @@ void run(const Arguments& arguments) {
 void check(const Arguments& arguments) {
     const Scene scene = scene_of(arguments);
     const Region region(scene);
-    const std::size_t particles = region.lattice_points(scene.numerics.particle_spacing).size();
-    const std::size_t discs = place_discs(scene, region).size();
-    print(fmt::format("{}: ok, {} fluid particles{}\n", arguments.scene.string(), particles,
-                      discs == 0 ? "" : fmt::format(", {} disc{}", discs, discs == 1 ? "" : "s")));
+    const std::vector<Disc> discs = make_discs(place_discs(scene, region), scene.fluid);
+    const std::size_t particles = fluid_points(scene, region, discs).size();
+    print(fmt::format(
+        "{}: ok, {} fluid particles{}\n", arguments.scene.string(), particles,
+        discs.empty() ? "" : fmt::format(", {} disc{}", discs.size(), discs.size() == 1 ? "" : "s")));
 }
 
 void info(const Arguments& arguments) {

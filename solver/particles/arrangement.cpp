@@ -132,6 +132,16 @@ void set_velocity(FluidParticles& fluid, const Start& start, const Domain& domai
     }
 }
 
+double fluid_area(const Region& region, std::span<const Disc> discs) {
+    double area = region.fluid_area();
+    for (const Disc& disc : discs) {
+        area -= disc.area();
+    }
+    return area;
+}
+
+} // namespace
+
 std::vector<Vector> fluid_points(const Scene& scene, const Region& region, std::span<const Disc> discs) {
     if (scene.start.arrangement == Arrangement::empty) {
         return {};
@@ -144,16 +154,6 @@ std::vector<Vector> fluid_points(const Scene& scene, const Region& region, std::
     }
     return points;
 }
-
-double fluid_area(const Region& region, std::span<const Disc> discs) {
-    double area = region.fluid_area();
-    for (const Disc& disc : discs) {
-        area -= disc.area();
-    }
-    return area;
-}
-
-} // namespace
 
 int dummy_layers(const Numerics& numerics) {
     return static_cast<int>(std::ceil(QuinticSpline::support * numerics.smoothing_ratio - 1e-9));
