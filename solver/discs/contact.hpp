@@ -22,7 +22,8 @@ class DiscContacts {
     // Of the stiffest contact that these discs can have, rad/s.
     [[nodiscard]] double highest_frequency(std::span<const Disc> discs) const;
 
-    // Between rims, or a rim and a wall, of all calls so far, m: at most reach(), negative for an overlap.
+    // Between rims, or a rim and a wall, of all calls so far, m: infinite until two are near, negative for an
+    // overlap.
     [[nodiscard]] double least_gap() const { return least_gap_; }
     // When two discs first repelled each other, s; negative if none did.
     [[nodiscard]] double first_contact_time() const { return first_contact_time_; }

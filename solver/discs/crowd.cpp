@@ -1,5 +1,7 @@
 #include "solver/discs/crowd.hpp"
 
+#include "solver/discs/nearest_image.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,11 +38,7 @@ void Crowd::add(const Rim& rim) {
 }
 
 double Crowd::gap(const Rim& one, std::size_t other) const {
-    Vector between = rims_[other].centre - one.centre;
-    for (int axis = 0; axis < 2; ++axis)
-        if (domain_.periodic[static_cast<std::size_t>(axis)])
-            between[axis] = std::remainder(between[axis], domain_.size()[axis]);
-    return between.norm() - one.radius - rims_[other].radius;
+    return nearest_image(rims_[other].centre - one.centre, domain_).norm() - one.radius - rims_[other].radius;
 }
 
 std::optional<std::size_t> Crowd::too_near(const Rim& rim) const {

@@ -19,43 +19,30 @@ upper = [{right}, 0.06]
 density = 1000.0
 dynamic_viscosity = {viscosity}
 gravity = [0.0, -9.81]
-[[walls]]
-name = "left"
-shape = "line"
-from = [{left}, 0.0]
-to = [{left}, 0.06]
-fluid_side = "right"
-[[walls]]
-name = "right"
-shape = "line"
-from = [{right}, 0.06]
-to = [{right}, 0.0]
-fluid_side = "left"
-[[walls]]
-name = "bottom"
-shape = "line"
-from = [{left}, 0.0]
-to = [{right}, 0.0]
-fluid_side = "above"
-[[walls]]
-name = "top"
-shape = "line"
-from = [{left}, 0.06]
-to = [{right}, 0.06]
-fluid_side = "below"
-[output]
+{walls}[output]
 end_time = {end}
 """
+WALL = '[[walls]]\nname = "{}"\nshape = "line"\nfrom = [{}, {}]\nto = [{}, {}]\nfluid_side = "{}"\n'
 DISC = '[[discs]]\nname = "{}"\nplacement = "single"\nradius = 1.25e-3\nposition = [{}, {}]\ndensity = {}\n'
 
 
+def box_of(left, right, viscosity, end):
+    walls = (
+        WALL.format("left", left, 0.0, left, 0.06, "right"),
+        WALL.format("right", right, 0.06, right, 0.0, "left"),
+        WALL.format("bottom", left, 0.0, right, 0.0, "above"),
+        WALL.format("top", left, 0.06, right, 0.06, "below"),
+    )
+    return BOX.format(left=left, right=right, viscosity=viscosity, walls="".join(walls), end=end)
+
+
 def settling(left=0.0, end=0.65):
-    box = BOX.format(left=left, right=left + 0.02, viscosity=0.01, end=end)
+    box = box_of(left, left + 0.02, 0.01, end)
     return box + DISC.format("ball", left + 0.01, 0.04, 1250.0)
 
 
 def pair():
-    box = BOX.format(left=0.0, right=0.02, viscosity=1e-3, end=0.3)
+    box = box_of(0.0, 0.02, 1e-3, 0.3)
     return (
         box + DISC.format("trailing", 0.01001, 0.05, 1500.0) + DISC.format("leading", 0.00999, 0.045, 1500.0)
     )

@@ -1,0 +1,18 @@
+#pragma once
+#include "solver/scene/scene.hpp"
+
+#include <cmath>
+
+namespace slurry {
+
+// The shortest of an offset and its periodic images, m.
+inline Vector nearest_image(Vector offset, const Domain& domain) {
+    for (const int axis : {0, 1}) {
+        if (domain.periodic[static_cast<std::size_t>(axis)]) {
+            offset[axis] = std::remainder(offset[axis], domain.size()[axis]);
+        }
+    }
+    return offset;
+}
+
+} // namespace slurry
