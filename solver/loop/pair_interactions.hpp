@@ -12,6 +12,7 @@
 #include "solver/terms/gradient_correction.hpp"
 #include "solver/terms/number_density.hpp"
 #include "solver/terms/plain_pressure_force.hpp"
+#include "solver/terms/pressure_advection.hpp"
 #include "solver/terms/pressure_force.hpp"
 #include "solver/terms/selection.hpp"
 #include "solver/terms/viscous_force.hpp"
@@ -22,6 +23,14 @@
 #include <type_traits>
 
 namespace slurry {
+
+template <class P> double lane_of(const P& values, std::size_t lane) {
+    if constexpr (std::is_arithmetic_v<P>) {
+        return values;
+    } else {
+        return static_cast<double>(values[lane]);
+    }
+}
 
 // Writes the lanes that belong to particles, in SI units.
 template <class P> void store_lanes(std::vector<double>& to, std::size_t first, const P& from, double unit) {
@@ -61,6 +70,10 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
 
     void compute_volumes(Particles& particles) override {
         FluidParticles& fluid = particles.fluid;
+        if (numerics_.particle_volume == ParticleVolume::constant) {
+            std::ranges::fill(fluid.volume, fluid.mass / fluid_.density);
+            return;
+        }
         if (numerics_.particle_volume == ParticleVolume::mass_over_density) {
             const auto count = static_cast<std::ptrdiff_t>(fluid.size());
 #pragma omp parallel for simd schedule(static)
@@ -146,15 +159,23 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
 
     template <class Divergence> void rate_with(FluidParticles& fluid) {
         if (terms_.hydrostatic_diffusion) {
-            sweep_rate(Composition<Divergence, DensityDiffusion, HydrostaticDiffusion>{}, fluid);
+            sweep_rate<Divergence, DensityDiffusion, HydrostaticDiffusion>(fluid);
         } else if (terms_.density_diffusion) {
-            sweep_rate(Composition<Divergence, DensityDiffusion>{}, fluid);
+            sweep_rate<Divergence, DensityDiffusion>(fluid);
         } else {
-            sweep_rate(Composition<Divergence>{}, fluid);
+            sweep_rate<Divergence>(fluid);
         }
     }
 
-    template <class Terms> void sweep_rate(Terms terms, FluidParticles& fluid) {
+    template <class... Terms> void sweep_rate(FluidParticles& fluid) {
+        if (terms_.pressure_frame) {
+            sweep_rate_of(Composition<Terms..., PressureAdvection>{}, fluid);
+        } else {
+            sweep_rate_of(Composition<Terms...>{}, fluid);
+        }
+    }
+
+    template <class Terms> void sweep_rate_of(Terms terms, FluidParticles& fluid) {
         const Vector slope = fluid_.acceleration() / units_.acceleration();
         const RateCoefficients<Real> coefficients{static_cast<Real>(numerics_.density_diffusion),
                                                   static_cast<Real>(slope.x()), static_cast<Real>(slope.y())};
@@ -162,7 +183,23 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
                                                [&](std::size_t first, const Rate<P>& result) {
                                                    store_lanes(fluid.density_rate, first, result.density_rate,
                                                                units_.density_rate());
+                                                   if (terms_.pressure_frame) {
+                                                       advect_pressure(fluid, first, result);
+                                                   }
                                                });
+    }
+
+    // The part of the density rate that PressureAdvection left to do: (v~ - U) . grad rho.
+    void advect_pressure(FluidParticles& fluid, std::size_t first, const Rate<P>& result) const {
+        const double unit = units_.density / units_.length;
+        const Vector frame = *terms_.pressure_frame;
+        const std::size_t end = std::min(first + static_cast<std::size_t>(W), fluid.size());
+        for (std::size_t i = first; i < end; ++i) {
+            fluid.density_rate[i] += unit * ((fluid.velocity_x[i] + fluid.shift_x[i] - frame.x()) *
+                                                 lane_of(result.gradient_x, i - first) +
+                                             (fluid.velocity_y[i] + fluid.shift_y[i] - frame.y()) *
+                                                 lane_of(result.gradient_y, i - first));
+        }
     }
 
     template <class Pressure> void forces_from(Particles& particles) {

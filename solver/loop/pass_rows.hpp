@@ -37,7 +37,7 @@ template <class Real> class PassRows {
             [&](std::size_t d) {
                 const Vector moving = continuity_velocity(dummies, d);
                 return row(x(dummies.x[d]), y(dummies.y[d]), velocity(moving.x()), velocity(moving.y()),
-                           volume(dummies.volume[d]), 1, 0, 0);
+                           volume(dummies.volume[d]), 1 + pressure(dummies.pressure[d]), 0, 0);
             });
     }
 

@@ -118,14 +118,21 @@ void balance_body_force(FluidParticles& fluid, const Scene& scene) {
     }
 }
 
-void set_velocity(FluidParticles& fluid, const Start& start, const Domain& domain) {
+void set_velocity(FluidParticles& fluid, const Scene& scene) {
+    const Start& start = scene.start;
+    const Domain& domain = scene.domain;
     const Vector size = domain.size();
+    const EquationOfState equation_of_state{scene.fluid.density, scene.numerics.sound_speed};
+    const double peak_pressure = scene.fluid.density * start.speed * start.speed / 4;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         const double x = 2 * std::numbers::pi * (fluid.x[i] - domain.lower.x()) / size.x();
         const double y = 2 * std::numbers::pi * (fluid.y[i] - domain.lower.y()) / size.x();
         if (start.velocity == InitialVelocity::taylor_green) {
             fluid.velocity_x[i] = -start.speed * std::cos(x) * std::sin(y);
             fluid.velocity_y[i] = start.speed * std::sin(x) * std::cos(y);
+            // Without the vortices' pressure the start would be heard as sound for a long time.
+            fluid.density[i] =
+                equation_of_state.density(-peak_pressure * (std::cos(2 * x) + std::cos(2 * y)));
         } else if (start.velocity == InitialVelocity::shear) {
             fluid.velocity_x[i] = start.speed * (fluid.y[i] - domain.lower.y()) / size.y();
         }
@@ -181,7 +188,7 @@ Particles arrange_particles(const Scene& scene, const Region& region) {
         relax(particles, scene);
     }
     balance_body_force(fluid, scene);
-    set_velocity(fluid, scene.start, scene.domain);
+    set_velocity(fluid, scene);
     return particles;
 }
 

@@ -129,9 +129,14 @@ const std::vector<Parameter> parameter_table{
      one_of({"wall_velocity", "extrapolated", "solenoidal"}),
      "velocity of wall particles in the continuity equation; solenoidal: extrapolated, but for the normal "
      "part that keeps volumes"},
+    {"numerics", "", "compressibility", member(&Numerics::compressibility), "",
+     Default::by_scheme<std::string>("steady_frame", "acoustic"), one_of({"acoustic", "steady_frame"}),
+     "what the artificial sound speed leaves in the flow; steady_frame: none where the flow is steady as "
+     "seen "
+     "from the rough walls"},
     {"numerics", "", "particle_volume", member(&Numerics::particle_volume), "",
-     Default::by_scheme<std::string>("mass_over_density", "number_density"),
-     one_of({"mass_over_density", "number_density"}), "particle volume in the forces"},
+     Default::by_scheme<std::string>("constant", "number_density"),
+     one_of({"mass_over_density", "number_density", "constant"}), "particle volume in the forces"},
     {"numerics", "", "neighbour_search", member(&Numerics::neighbour_search), "", word("strips"),
      one_of({"strips", "cells", "plane_sweep"}),
      "how neighbours are found; the answer is the same, plane_sweep is the paper's"},

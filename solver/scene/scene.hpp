@@ -19,8 +19,12 @@ enum class DummyLayout : std::uint8_t { curve, lattice };
 // (2.16), or the extrapolated one along the wall with, across it, what keeps the volume (as far as the
 // dummy's boundary layer is resolved).
 enum class WallContinuity : std::uint8_t { wall_velocity, extrapolated, solenoidal };
-// Particle volume in the forces: m / rho, or 1 / sum W (below Eq. 2.8).
-enum class ParticleVolume : std::uint8_t { mass_over_density, number_density };
+// What a change of pressure does to the volume of the fluid. acoustic: Eq. 2.14, a particle is compressed on
+// its way to higher pressure, which the real fluid is not. steady_frame: a pressure that is steady as seen
+// from the rough walls does not compress (solver/terms/pressure_advection.hpp).
+enum class Compressibility : std::uint8_t { acoustic, steady_frame };
+// Particle volume in the forces: m / rho, 1 / sum W (below Eq. 2.8), or m / rho0.
+enum class ParticleVolume : std::uint8_t { mass_over_density, number_density, constant };
 // How the fluid is continued to the dummies of a wall: kernel means (2.16, 2.17) or least-squares fits.
 enum class WallExtrapolation : std::uint8_t { mean, fit };
 // Of the sums over pairs. The state, its integration and the output are in double precision always.
@@ -82,7 +86,8 @@ struct Numerics {
     DiscDummies disc_dummies = DiscDummies::lattice;
     WallExtrapolation wall_extrapolation = WallExtrapolation::fit;
     WallContinuity wall_continuity = WallContinuity::solenoidal;
-    ParticleVolume particle_volume = ParticleVolume::mass_over_density;
+    Compressibility compressibility = Compressibility::steady_frame;
+    ParticleVolume particle_volume = ParticleVolume::constant;
     NeighbourSearch neighbour_search = NeighbourSearch::strips;
 
     [[nodiscard]] double smoothing_length() const { return smoothing_ratio * particle_spacing; }

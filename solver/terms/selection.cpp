@@ -1,5 +1,7 @@
 #include "solver/terms/selection.hpp"
 
+#include "solver/terms/steady_frame.hpp"
+
 #include <fmt/format.h>
 
 namespace slurry {
@@ -10,6 +12,9 @@ TermSelection select_terms(const Scene& scene) {
     terms.gradient_correction = numerics.gradient_correction;
     terms.density_diffusion = numerics.density_diffusion > 0;
     terms.hydrostatic_diffusion = terms.density_diffusion && scene.fluid.acceleration().squaredNorm() > 0;
+    if (numerics.compressibility == Compressibility::steady_frame) {
+        terms.pressure_frame = steady_frame(scene);
+    }
     terms.density_weighted_pressure = numerics.pressure_mean == PressureMean::density_weighted;
     terms.viscosity = scene.fluid.dynamic_viscosity > 0;
     terms.transport_velocity = numerics.background_pressure_ratio > 0;
@@ -31,6 +36,12 @@ std::vector<TermReason> explain_terms(const Scene& scene) {
         {"hydrostatic part of the density diffusion", terms.hydrostatic_diffusion,
          terms.hydrostatic_diffusion ? "a body force acts on the fluid"
                                      : "no body force, or no density diffusion"},
+        {"no compression by a pressure at rest in a frame", terms.pressure_frame.has_value(),
+         terms.pressure_frame ? fmt::format("the frame moves with ({}, {}) m/s", terms.pressure_frame->x(),
+                                            terms.pressure_frame->y())
+         : numerics.compressibility == Compressibility::acoustic
+             ? std::string("numerics.compressibility = acoustic")
+             : std::string("rough walls that move apart, or discs: there is no such frame")},
         {"pressure force (2.15)", true, "always"},
         {"density weights of the mean pressure (2.15)", terms.density_weighted_pressure,
          terms.density_weighted_pressure ? "numerics.pressure_mean = density_weighted"

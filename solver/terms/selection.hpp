@@ -3,6 +3,7 @@
 // (solver/loop/pair_interactions.hpp).
 #include "solver/scene/scene.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct TermSelection {
     bool gradient_correction = false;
     bool density_diffusion = false;
     bool hydrostatic_diffusion = false;
+    std::optional<Vector> pressure_frame; // velocity, m/s
     bool density_weighted_pressure = false;
     bool viscosity = false;
     bool transport_velocity = false;

@@ -17,7 +17,10 @@ template <class P> struct RateView {
     const P& density() const { return field[5]; }
     const P& fluid_volume() const { return field[6]; }
 };
-template <class P> struct Rate { P density_rate; };
+template <class P> struct Rate {
+    P density_rate;
+    P gradient_x, gradient_y; // of the density
+};
 template <class Real> struct RateCoefficients {
     Real diffusivity;     // delta h c
     Real density_slope_x; // hydrostatic: rho0 f / c^2

@@ -5,11 +5,12 @@
 // A kernel mean of the fluid, reflected, has the slope of the fluid's velocity at the wall but the wrong sign
 // of its curvature, so that the viscous force on the first row of particles is wrong wherever the velocity is
 // not linear. The fits continue the polynomials of the fluid through the wall instead:
-//   velocity - V_wall = n (b_0 + b_1 s + b_2 n)     no slip at n = 0, exactly (V_wall: the rigid motion)
-//   pressure          = c_0 + c_1 s + c_2 n
+//   velocity - V_wall = n (b_0 + b_1 n + b_2 s)     no slip at n = 0, exactly (V_wall: the rigid motion)
+//   pressure          = c_0 + c_1 n + c_2 s
 // with n the distance from the (parabolic) wall and s the offset along it, and weights
-// (1 - (r / 3h)^2)^2, wide enough for two rows of particles in a gap to decide on b_2.
+// (1 - (r / 3h)^2)^2, wide enough for two rows of particles in a gap to decide on b_1.
 #include "solver/loop/pair.hpp"
+#include "solver/terms/normal_equations.hpp"
 #include "solver/terms/views.hpp"
 
 #include <type_traits>
@@ -33,66 +34,37 @@ template <class P, class View> WallOffset<P> wall_offset(const Pair<P>& pair, co
 
 struct VelocityFit {
     template <class P> struct Sums {
-        P a00{}, a01{}, a02{}, a11{}, a12{}, a22{}; // normal equations of n, n s, n^2
-        P x0{}, x1{}, x2{}, y0{}, y1{}, y2{};       // their right sides for both components
+        NormalEquations<P, 3> equations; // of n, n^2, n s
+        std::array<P, 3> right_x{}, right_y{};
     };
     template <class P, class View>
     static void add(Sums<P>& sums, const Pair<P>& pair, const View& dummy, const View& fluid) {
         const WallOffset<P> at = wall_offset(pair, dummy);
-        const P f0 = at.across;
-        const P f1 = at.across * at.along;
-        const P f2 = at.across * at.across;
-        const P w0 = at.weight * f0;
-        const P w1 = at.weight * f1;
-        const P w2 = at.weight * f2;
-        sums.a00 += w0 * f0;
-        sums.a01 += w0 * f1;
-        sums.a02 += w0 * f2;
-        sums.a11 += w1 * f1;
-        sums.a12 += w1 * f2;
-        sums.a22 += w2 * f2;
         P velocity_x = fluid.velocity_x() - dummy.wall_velocity_x();
         P velocity_y = fluid.velocity_y() - dummy.wall_velocity_y();
         if constexpr (spinning<View, P>) { // the pair's offset points from the particle to the wall point
             velocity_x -= dummy.spin() * pair.dy;
             velocity_y += dummy.spin() * pair.dx;
         }
-        sums.x0 += w0 * velocity_x;
-        sums.x1 += w1 * velocity_x;
-        sums.x2 += w2 * velocity_x;
-        sums.y0 += w0 * velocity_y;
-        sums.y1 += w1 * velocity_y;
-        sums.y2 += w2 * velocity_y;
+        const std::array<P, 3> functions{at.across, at.across * at.across, at.across * at.along};
+        const std::array<P, 3> weighted = sums.equations.add(at.weight, functions);
+        for (std::size_t k = 0; k < 3; ++k) {
+            sums.right_x[k] += weighted[k] * velocity_x;
+            sums.right_y[k] += weighted[k] * velocity_y;
+        }
     }
     template <class P, class View, class Real>
-    static void finish(const Sums<P>& s, const View& dummy, const ExtrapolationCoefficients<Real>& /*unused*/,
-                       Extrapolation<P>& result) {
-        const P zero{};
-        // Cofactors of the rows for b_0 and b_2; too few particles for a parabola leave the straight line.
-        const P c00 = s.a11 * s.a22 - s.a12 * s.a12;
-        const P c01 = s.a02 * s.a12 - s.a01 * s.a22;
-        const P c02 = s.a01 * s.a12 - s.a02 * s.a11;
-        const P c11 = s.a00 * s.a22 - s.a02 * s.a02;
-        const P c12 = s.a01 * s.a02 - s.a00 * s.a12;
-        const P c22 = s.a00 * s.a11 - s.a01 * s.a01;
-        const P determinant = s.a00 * c00 + s.a01 * c01 + s.a02 * c02;
-        const auto solvable = determinant > Real(1e-3) * s.a00 * s.a11 * s.a22;
-        const P inverse = solvable ? 1 / determinant : zero;
-        const P line = solvable ? zero : (s.a00 > zero ? 1 / s.a00 : zero);
+    static void finish(const Sums<P>& sums, const View& dummy,
+                       const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
+        const FactoredEquations<P, 3> equations(sums.equations);
+        const auto x = equations.solve(sums.right_x);
+        const auto y = equations.solve(sums.right_y);
         const P depth = dummy.depth();
-        const auto continued = [&](const P& r0, const P& r1, const P& r2) {
-            const P slope = (c00 * r0 + c01 * r1 + c02 * r2) * inverse + line * r0;
-            const P bend = (c02 * r0 + c12 * r1 + c22 * r2) * inverse;
-            return P(depth * (depth * bend - slope));
-        };
-        result.velocity_x = dummy.wall_velocity_x() + continued(s.x0, s.x1, s.x2);
-        result.velocity_y = dummy.wall_velocity_y() + continued(s.y0, s.y1, s.y2);
-        // Along the wall the velocity is n (b_0 + b_1 s + ...), so that div v = 0 asks for -b_1 n^2 / 2
+        result.velocity_x = dummy.wall_velocity_x() + depth * (depth * x[1] - x[0]);
+        result.velocity_y = dummy.wall_velocity_y() + depth * (depth * y[1] - y[0]);
+        // Along the wall the velocity is n (b_0 + b_2 s + ...), so that div v = 0 asks for -b_2 n^2 / 2
         // across it.
-        const P along0 = s.x0 * dummy.normal_y() - s.y0 * dummy.normal_x();
-        const P along1 = s.x1 * dummy.normal_y() - s.y1 * dummy.normal_x();
-        const P along2 = s.x2 * dummy.normal_y() - s.y2 * dummy.normal_x();
-        const P change = (c01 * along0 + c11 * along1 + c12 * along2) * inverse;
+        const P change = x[2] * dummy.normal_y() - y[2] * dummy.normal_x();
         result.normal_velocity = Real(-0.5) * change * depth * depth;
         if constexpr (spinning<View, P>) {
             result.velocity_x += dummy.spin() * depth * dummy.normal_y();
@@ -103,40 +75,23 @@ struct VelocityFit {
 
 struct PressureFit {
     template <class P> struct Sums {
-        P m0{}, ms{}, mn{}, mss{}, msn{}, mnn{}; // normal equations of 1, s, n
-        P p0{}, ps{}, pn{};                      // their right side
+        NormalEquations<P, 3> equations; // of 1, n, s
+        std::array<P, 3> right{};
     };
     template <class P, class View>
     static void add(Sums<P>& sums, const Pair<P>& pair, const View& dummy, const View& fluid) {
         const WallOffset<P> at = wall_offset(pair, dummy);
-        const P ws = at.weight * at.along;
-        const P wn = at.weight * at.across;
-        sums.m0 += at.weight;
-        sums.ms += ws;
-        sums.mn += wn;
-        sums.mss += ws * at.along;
-        sums.msn += ws * at.across;
-        sums.mnn += wn * at.across;
-        sums.p0 += at.weight * fluid.pressure();
-        sums.ps += ws * fluid.pressure();
-        sums.pn += wn * fluid.pressure();
+        const std::array<P, 3> functions{P{} + 1, at.across, at.along};
+        const std::array<P, 3> weighted = sums.equations.add(at.weight, functions);
+        for (std::size_t k = 0; k < 3; ++k) {
+            sums.right[k] += weighted[k] * fluid.pressure();
+        }
     }
     template <class P, class View, class Real>
-    static void finish(const Sums<P>& s, const View& dummy, const ExtrapolationCoefficients<Real>& /*unused*/,
-                       Extrapolation<P>& result) {
-        const P zero{};
-        const P c00 = s.mss * s.mnn - s.msn * s.msn;
-        const P c01 = s.mn * s.msn - s.ms * s.mnn;
-        const P c02 = s.ms * s.msn - s.mn * s.mss;
-        const P c12 = s.ms * s.mn - s.m0 * s.msn;
-        const P c22 = s.m0 * s.mss - s.ms * s.ms;
-        const P determinant = s.m0 * c00 + s.ms * c01 + s.mn * c02;
-        const auto solvable = determinant > Real(1e-3) * s.m0 * s.mss * s.mnn;
-        const P inverse = solvable ? 1 / determinant : zero;
-        const P mean = solvable ? zero : (s.m0 > zero ? s.p0 / s.m0 : zero);
-        const P at_wall = (c00 * s.p0 + c01 * s.ps + c02 * s.pn) * inverse;
-        const P slope = (c02 * s.p0 + c12 * s.ps + c22 * s.pn) * inverse;
-        result.pressure = mean + at_wall - dummy.depth() * slope;
+    static void finish(const Sums<P>& sums, const View& dummy,
+                       const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
+        const auto c = FactoredEquations<P, 3>(sums.equations).solve(sums.right);
+        result.pressure = c[0] - dummy.depth() * c[1];
     }
 };
 

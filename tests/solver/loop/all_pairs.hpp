@@ -4,6 +4,7 @@
 // are held against.
 #include "solver/particles/particles.hpp"
 #include "solver/scene/scene.hpp"
+#include "solver/terms/selection.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -42,9 +43,11 @@ class AllPairs {
                 sum += kernel(r.norm()) *
                        (is_fluid(j) ? 1 : volume(j) / std::pow(scene_.numerics.particle_spacing, 2));
             });
+            const bool constant = scene_.numerics.particle_volume == ParticleVolume::constant;
+            const double density = constant ? scene_.fluid.density : fluid_.density[i];
             fluid_.volume[i] = scene_.numerics.particle_volume == ParticleVolume::number_density
                                    ? 1 / sum
-                                   : fluid_.mass / fluid_.density[i];
+                                   : fluid_.mass / density;
         }
     }
 
@@ -73,8 +76,8 @@ class AllPairs {
         }
     }
 
-    // The fits of solver/terms/wall_fit.hpp, lengths in smoothing lengths. A basis of which the particles in
-    // reach cannot tell the functions apart is cut to its first.
+    // The fits of solver/terms/wall_fit.hpp, lengths in smoothing lengths. Functions that the particles in
+    // reach cannot tell from those before them are left out.
     void fit_to_walls() {
         for (std::size_t d = 0; d < dummies_.size(); ++d) {
             const std::vector<Seen> fluid = fluid_seen_from(d);
@@ -86,20 +89,20 @@ class AllPairs {
             for (Eigen::Index k = 0; k < count; ++k) {
                 const auto& [f, s, n, weight] = fluid[static_cast<std::size_t>(k)];
                 const double root = std::sqrt(weight);
-                no_slip.row(k) = root * Eigen::RowVector3d(n, n * s, n * n);
-                linear.row(k) = root * Eigen::RowVector3d(1, s, n);
+                no_slip.row(k) = root * Eigen::RowVector3d(n, n * n, n * s);
+                linear.row(k) = root * Eigen::RowVector3d(1, n, s);
                 velocity.row(k) = root * (velocity_of(f) - rigid_velocity(d, s, n)).transpose();
                 pressure(k, 0) = root * fluid_.pressure[f];
             }
             const double n = -dummies_.depth[d] / h_;
             const Eigen::MatrixXd b = least_squares(no_slip, velocity);
-            const Vector continued = rigid_velocity(d, 0, n) + n * (b.row(0) + n * b.row(2)).transpose();
+            const Vector continued = rigid_velocity(d, 0, n) + n * (b.row(0) + n * b.row(1)).transpose();
             const Vector along(dummies_.normal_y[d], -dummies_.normal_x[d]);
-            dummies_.normal_velocity[d] = -0.5 * n * n * b.row(1).dot(along);
+            dummies_.normal_velocity[d] = -0.5 * n * n * b.row(2).dot(along);
             const Eigen::MatrixXd c = least_squares(linear, pressure);
             dummies_.velocity_x[d] = continued.x();
             dummies_.velocity_y[d] = continued.y();
-            dummies_.pressure[d] = c(0, 0) + n * c(2, 0);
+            dummies_.pressure[d] = c(0, 0) + n * c(1, 0);
         }
     }
 
@@ -108,15 +111,19 @@ class AllPairs {
         const Numerics& numerics = scene_.numerics;
         const Vector density_slope =
             scene_.fluid.density / (numerics.sound_speed * numerics.sound_speed) * scene_.fluid.body_force;
+        const std::optional<Vector> frame = select_terms(scene_).pressure_frame;
         for (std::size_t i = 0; i < fluid_.size(); ++i) {
             const Matrix correction =
                 numerics.gradient_correction ? correction_matrix(i) : Matrix::Identity();
+            const Vector carried =
+                frame ? Vector(velocity_of(i) + advection_shift(i) - *frame) : Vector(0, 0);
             double rate = 0;
             visit(i, [&](std::size_t j, const Vector& r) {
                 const double volume_j = is_fluid(j) ? fluid_.mass / fluid_.density[j] : volume(j);
                 const Vector gradient = kernel_slope(r.norm()) * r.normalized();
                 const Vector velocity = velocity_of(i) - continuity_velocity(j);
                 rate += fluid_.density[i] * volume_j * velocity.dot(correction * gradient);
+                rate += volume_j * (continuity_density(j) - fluid_.density[i]) * gradient.dot(carried);
                 if (is_fluid(j)) {
                     const double difference = fluid_.density[j] - fluid_.density[i] + density_slope.dot(r);
                     const Vector psi = 2 * difference / r.squaredNorm() * -r;
@@ -185,15 +192,24 @@ class AllPairs {
 
     [[nodiscard]] static Eigen::MatrixXd least_squares(const Eigen::MatrixXd& basis,
                                                        const Eigen::MatrixXd& values) {
-        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, values.cols());
-        if (basis.rows() == 0) {
-            return result;
+        std::vector<Eigen::Index> kept;
+        Eigen::MatrixXd fitted = Eigen::MatrixXd::Zero(0, values.cols());
+        for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+            const Eigen::VectorXd column = basis.col(k);
+            Eigen::VectorXd rest = column;
+            if (!kept.empty()) {
+                const Eigen::MatrixXd before = basis(Eigen::all, kept);
+                rest -= before * before.colPivHouseholderQr().solve(column);
+            }
+            if (rest.squaredNorm() > 1e-3 * column.squaredNorm()) {
+                kept.push_back(k);
+                fitted = basis(Eigen::all, kept).colPivHouseholderQr().solve(values);
+            }
         }
-        const Eigen::MatrixXd normalised = basis.colwise().normalized();
-        if ((normalised.transpose() * normalised).determinant() > 1e-3) {
-            return basis.colPivHouseholderQr().solve(values);
+        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(basis.cols(), values.cols());
+        for (std::size_t k = 0; k < kept.size(); ++k) {
+            result.row(kept[k]) = fitted.row(static_cast<Eigen::Index>(k));
         }
-        result.row(0) = basis.leftCols(1).colPivHouseholderQr().solve(values);
         return result;
     }
 
@@ -262,6 +278,13 @@ class AllPairs {
     }
     [[nodiscard]] Vector velocity_of(std::size_t j) const {
         return pick(j, fluid_.velocity_x, fluid_.velocity_y, dummies_.velocity_x, dummies_.velocity_y);
+    }
+    [[nodiscard]] Vector advection_shift(std::size_t i) const {
+        return {fluid_.shift_x[i], fluid_.shift_y[i]};
+    }
+    [[nodiscard]] double continuity_density(std::size_t j) const {
+        const double c = scene_.numerics.sound_speed;
+        return is_fluid(j) ? fluid_.density[j] : scene_.fluid.density + pressure(j) / (c * c);
     }
     [[nodiscard]] Vector wall_velocity(std::size_t d) const {
         return {dummies_.solid_velocity_x[d], dummies_.solid_velocity_y[d]};

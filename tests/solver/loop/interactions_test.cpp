@@ -30,8 +30,10 @@ Scene composed(unsigned bits, bool walls) {
     scene.fluid.dynamic_viscosity = bit(3) ? 2 : 0;
     scene.numerics.background_pressure_ratio = bit(4) ? 0.8 : 0;
     scene.numerics.advection_tensor = bit(5);
-    scene.numerics.particle_volume =
-        bit(6) ? ParticleVolume::number_density : ParticleVolume::mass_over_density;
+    scene.numerics.particle_volume = bit(6)   ? ParticleVolume::number_density
+                                     : bit(3) ? ParticleVolume::constant
+                                              : ParticleVolume::mass_over_density;
+    scene.numerics.compressibility = bit(5) ? Compressibility::acoustic : Compressibility::steady_frame;
     scene.numerics.wall_continuity = bit(7)   ? WallContinuity::extrapolated
                                      : bit(8) ? WallContinuity::solenoidal
                                               : WallContinuity::wall_velocity;

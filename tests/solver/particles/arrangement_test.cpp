@@ -1,6 +1,7 @@
 // The start of a scene: positions, masses, dummies and velocities.
 #include "solver/particles/arrangement.hpp"
 
+#include "solver/terms/equation_of_state.hpp"
 #include "tests/solver/geometry/scenes.hpp"
 #include "tests/solver/scenes_for_tests.hpp"
 
@@ -120,17 +121,20 @@ TEST(Arrangement, ShearGrowsFromTheFloorToTheTop) {
     }
 }
 
-TEST(Arrangement, TaylorGreenHasItsPeakSpeedNoDivergenceAndNoMeanVelocity) {
+TEST(Arrangement, TaylorGreenHasItsPeakSpeedAndPressureNoDivergenceAndNoMeanVelocity) {
     Scene scene = doubly_periodic(24);
     scene.start.velocity = InitialVelocity::taylor_green;
     scene.start.speed = 1.5;
     const FluidParticles fluid = arrange(scene).fluid;
+    const EquationOfState equation_of_state{scene.fluid.density, scene.numerics.sound_speed};
     double energy = 0;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         const double x = 2 * std::numbers::pi * (fluid.x[i] + 0.3);
         const double y = 2 * std::numbers::pi * (fluid.y[i] - 0.2);
         EXPECT_NEAR(fluid.velocity_x[i], -1.5 * std::cos(x) * std::sin(y), 1e-12);
         EXPECT_NEAR(fluid.velocity_y[i], 1.5 * std::sin(x) * std::cos(y), 1e-12);
+        EXPECT_NEAR(equation_of_state.pressure(fluid.density[i]),
+                    -1000 * 1.5 * 1.5 / 4 * (std::cos(2 * x) + std::cos(2 * y)), 1e-6);
         energy += 0.5 * fluid.mass * (std::pow(fluid.velocity_x[i], 2) + std::pow(fluid.velocity_y[i], 2));
     }
     EXPECT_NEAR(energy, 1000 * 1.5 * 1.5 / 4, 1e-9); // mean of cos^2 sin^2 is 1/4, twice, halved

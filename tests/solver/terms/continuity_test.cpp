@@ -14,6 +14,7 @@ struct Blob {
 // Particles without walls or periodic sides around them, moving with v = shift + gradient x.
 Blob linear_flow(const Matrix& gradient, bool correction, double disorder_amplitude) {
     Blob blob{doubly_periodic(16), {}};
+    blob.scene.numerics.compressibility = Compressibility::acoustic;
     if (disorder_amplitude > 0) {
         jitter(blob.scene, disorder_amplitude);
     }

@@ -7,7 +7,8 @@ namespace slurry::testing {
 namespace {
 
 // Rates of particles at rest: diffusion alone.
-void diffuse(const Scene& scene, Particles& particles) {
+void diffuse(Scene scene, Particles& particles) {
+    scene.numerics.compressibility = Compressibility::acoustic;
     const auto interactions = make_interactions(scene);
     interactions->refresh_neighbours(particles);
     interactions->compute_density_rate(particles);
