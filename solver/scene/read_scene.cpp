@@ -138,7 +138,7 @@ void load_files(Scene& scene, const Places& places) {
 } // namespace
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& path,
-                  std::span<const std::string> overrides) {
+                  std::span<const std::string> overrides, const Limits& limits) {
     Node document = parse_document(text, printable(path.string()));
     check_structure(document);
     for (const std::string& change : overrides) {
@@ -147,6 +147,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
     Places places;
     Scene scene = Reader(document, places).read();
     scene.path = path;
+    scene.limits = limits;
     check_scene(scene, places);
     scene.resolved_text = resolved_text(scene); // before paths are made relative to this process
     load_files(scene, places);
@@ -154,8 +155,10 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
     return scene;
 }
 
-Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
-    return parse_scene(read_bounded_file(path, largest_scene, printable(path.string())), path, overrides);
+Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides,
+                 const Limits& limits) {
+    return parse_scene(read_bounded_file(path, largest_scene, printable(path.string())), path, overrides,
+                       limits);
 }
 
 } // namespace slurry
