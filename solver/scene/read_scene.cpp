@@ -9,6 +9,7 @@
 #include "solver/scene/refusal.hpp"
 #include "solver/scene/resolved.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -106,7 +107,16 @@ class Reader {
     Scene scene_;
 };
 
-// The file as this process finds it: paths are relative to the scene's folder and may not leave it.
+// Whether a path is in the folder or below, links followed.
+bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    std::error_code error;
+    const auto base = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
+    const auto target = std::filesystem::weakly_canonical(file, error);
+    return !error && std::ranges::mismatch(base, target).in1 == base.end();
+}
+
+// The file as this process finds it: paths are relative to the scene's folder and may not leave it, not even
+// by a link, because a scene may come from somebody else; an absolute path is one that its user can see.
 std::filesystem::path located(const std::filesystem::path& file, const Scene& scene,
                               const std::string& place) {
     const std::filesystem::path normal = file.lexically_normal();
@@ -114,7 +124,16 @@ std::filesystem::path located(const std::filesystem::path& file, const Scene& sc
         refuse(place, fmt::format("the file \"{}\"", printable(file.string())),
                "a file in the scene's folder or below, or an absolute path");
     }
-    return file.is_relative() ? scene.path.parent_path() / normal : normal;
+    if (file.is_absolute()) {
+        return normal;
+    }
+    std::filesystem::path path = scene.path.parent_path() / normal;
+    if (!is_in(path, scene.path.parent_path())) {
+        refuse(place,
+               fmt::format("the file \"{}\", a link out of the scene's folder", printable(file.string())),
+               "a file in the scene's folder or below, or an absolute path");
+    }
+    return path;
 }
 
 void load_files(Scene& scene, const Places& places) {

@@ -46,9 +46,14 @@ TEST(Corpus, ChangedScenesAreReadOrRefused) {
     }
 }
 
-TEST(Corpus, AFaultOfAReaderIsSeen) {
-    EXPECT_NO_THROW(try_profile("0, 1\n1, 1\n"));
-    EXPECT_NO_THROW(try_scene("no scene"));
+TEST(Corpus, ARefusalWithoutPlaceOrReasonIsAFault) {
+    EXPECT_NO_THROW(demand_reason("tests/fuzz/corpus/scene.toml:3:1: found x, allowed y"));
+    for (const char* message :
+         {"", "found x, allowed y", "tests/fuzz/corpus/scene.toml: found x, allowed y",
+          "other.toml:3:1: found x, allowed y", "tests/fuzz/corpus/scene.toml:3:1: wrong",
+          "tests/fuzz/corpus/scene.toml:3:1: found x,\n allowed y"}) {
+        EXPECT_THROW(demand_reason(message), std::logic_error) << message;
+    }
 }
 
 } // namespace

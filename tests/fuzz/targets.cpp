@@ -22,17 +22,6 @@ void demand(bool holds, const std::string& what) {
     }
 }
 
-// One line `tests/fuzz/corpus/scene.toml:12:3: found ..., allowed ...`.
-void demand_reason(const std::string& message) {
-    demand(message.find('\n') == std::string::npos, "a refusal of several lines: " + message);
-    demand(message.starts_with(folder), "a refusal without its file: " + message);
-    const std::size_t colon = message.find(':');
-    demand(colon != std::string::npos && std::isdigit(static_cast<unsigned char>(message[colon + 1])) != 0,
-           "a refusal without its line: " + message);
-    demand(message.find(": found ") != std::string::npos && message.find(", allowed ") != std::string::npos,
-           "a refusal without its reason: " + message);
-}
-
 template <class Read> void try_reading(const Read& read) {
     try {
         read();
@@ -42,6 +31,16 @@ template <class Read> void try_reading(const Read& read) {
 }
 
 } // namespace
+
+void demand_reason(const std::string& message) {
+    demand(message.find('\n') == std::string::npos, "a refusal of several lines: " + message);
+    demand(message.starts_with(folder), "a refusal without its file: " + message);
+    const std::size_t colon = message.find(':');
+    demand(colon != std::string::npos && std::isdigit(static_cast<unsigned char>(message[colon + 1])) != 0,
+           "a refusal without its line: " + message);
+    demand(message.find(": found ") != std::string::npos && message.find(", allowed ") != std::string::npos,
+           "a refusal without its reason: " + message);
+}
 
 void try_scene(std::string_view text) {
     try_reading([&] {
