@@ -26,10 +26,11 @@ class Reader {
     }
 
     [[nodiscard]] Scene read() {
+        const Node absent{document_.place, NodeTable{}};
         for (const Section& section : sections()) {
             const Entry* entry = find(std::get<NodeTable>(document_.value), section.name);
             if (!section.repeated()) {
-                read_table(section, entry == nullptr ? Node{document_.place, NodeTable{}} : entry->node, 0);
+                read_table(section, entry == nullptr ? absent : entry->node, 0);
             } else if (entry != nullptr) {
                 for (const Node& table : std::get<std::vector<Node>>(entry->node.value)) {
                     section.append(scene_);
