@@ -21,10 +21,8 @@ std::string printable(std::string_view text) {
     constexpr std::size_t longest = 80;
     std::string line(text.substr(0, longest));
     if (text.size() > longest) {
-        constexpr int most_continuations =
-            3; // of a UTF-8 character, which is never cut in two; more are none
-        for (int k = 0; k < most_continuations && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U;
-             ++k) {
+        // A UTF-8 character, which is not to be cut in two, has at most three bytes after the first.
+        for (int k = 0; k < 3 && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U; ++k) {
             line.pop_back();
         }
         line.replace(line.size() - 1, 1, "...");
