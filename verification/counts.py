@@ -94,7 +94,7 @@ FIGURES = {
 
 
 def build(folder: Path, jobs: int) -> Path:
-    """The solver for AVX2, built in `folder`; of the pair loops, the longest to compile, only what SCENES use."""
+    """The solver for AVX2, built in `folder`; of the pair loops only those that SCENES use."""
     generator = ["-GNinja"] if shutil.which("ninja") and not (folder / "CMakeCache.txt").exists() else []
     options = ["-DSLURRY_ARCHITECTURE=x86-64-v3", "-DBUILD_TESTING=OFF", "-DCMAKE_UNITY_BUILD=ON"]
     options += [f"-DSLURRY_ONLY_KERNEL={KERNEL}"]
