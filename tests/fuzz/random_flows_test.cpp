@@ -27,7 +27,7 @@ int setting(const char* name, int fallback) {
     return text == nullptr ? fallback : std::atoi(text);
 }
 
-std::filesystem::path folder() {
+std::filesystem::path output_folder() {
     return std::filesystem::temp_directory_path() / ("slurry_flows_" + std::to_string(getpid()));
 }
 
@@ -62,8 +62,8 @@ TEST(RandomFlows, OneThatBreaksIsSeen) {
     scene->output.end_time *= 20;
     scene->numerics.acoustic_cfl *= 20;
     scene->numerics.viscous_cfl *= 20;
-    EXPECT_THROW(run_scene(*scene, {folder(), 1, true, true}), RunError);
-    std::filesystem::remove_all(folder());
+    EXPECT_THROW(run_scene(*scene, {output_folder(), 1, true, true}), RunError);
+    std::filesystem::remove_all(output_folder());
 }
 
 TEST(RandomFlows, RunOrAreRefusedWithAReason) {
@@ -77,11 +77,11 @@ TEST(RandomFlows, RunOrAreRefusedWithAReason) {
         const std::string text = random_flow(random, numerics);
         SCOPED_TRACE("seed " + std::to_string(seed + k) + "\n" + text);
         if (const std::optional<Scene> scene = accepted(text)) {
-            EXPECT_NO_THROW(run_scene(*scene, {folder(), 1, true, true}));
+            EXPECT_NO_THROW(run_scene(*scene, {output_folder(), 1, true, true}));
             ++ran;
         }
     }
-    std::filesystem::remove_all(folder());
+    std::filesystem::remove_all(output_folder());
     RecordProperty("ran", ran);
     EXPECT_GE(3 * ran, wanted) << "most were refused: the generator has to be mended";
 }
