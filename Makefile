@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test reference verify report faults baseline bench bench-peers counts lint format docs clean
+.PHONY: help setup configure build test reference verify report faults baseline bench bench-peers counts lint sanitize fuzz flows format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -54,6 +54,17 @@ bench-peers: build ## PySPH (installed when missing) on flows of ours beside our
 
 counts: setup ## Instructions of a step (valgrind) against verification/counts.json; the exit status is the verdict
 	@env -u MAKEFLAGS -u MFLAGS $(PYTHON) -m verification.counts --jobs $(JOBS)
+
+sanitize: setup ## Unit tests and short scenes under the address, undefined-behaviour and thread sanitizers (clang)
+	@env -u MAKEFLAGS -u MFLAGS scripts/sanitize $(JOBS)
+
+RUNS ?= 1000000
+fuzz: setup ## RUNS executions of each fuzzer (clang's libFuzzer) on the readers of scenes and CSV files
+	@env -u MAKEFLAGS -u MFLAGS scripts/fuzz $(JOBS) $(RUNS)
+
+FLOWS ?= 1000
+flows: build ## FLOWS random scenes, each of which has to run or be refused with a reason
+	@SLURRY_FLOWS=$(FLOWS) $(BUILD)/slurry_tests --gtest_filter='RandomFlows.*'
 
 lint: configure ## Check format, clang-tidy, cppcheck and ruff
 	@scripts/lint $(BUILD) $(JOBS)

@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <version.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -37,7 +38,7 @@ constexpr int run_went_wrong = 3;
 struct Arguments {
     std::filesystem::path scene;
     std::string spacing;
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides, limits;
     RunOptions run;
     std::string topic;
     bool markdown = false;
@@ -56,7 +57,10 @@ Scene scene_of(const Arguments& arguments) {
     std::vector<std::string> overrides = arguments.overrides;
     if (!arguments.spacing.empty())
         overrides.push_back("numerics.particle_spacing=" + arguments.spacing);
-    Scene scene = read_scene(arguments.scene, overrides);
+    Limits limits;
+    for (const std::string& limit : arguments.limits)
+        set_limit(limits, limit);
+    Scene scene = read_scene(arguments.scene, overrides, limits);
     for (const std::string& warning : scene.warnings)
         std::cerr << "warning: " << warning << '\n';
     return scene;
@@ -109,6 +113,11 @@ CLI::App* add_scene_command(CLI::App& app, const char* name, const char* descrip
         ->add_option("--set", arguments.overrides, "Another value for a key of the scene (may be repeated)")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false); // or it would take SCENE, too
+    command
+        ->add_option("--limit", arguments.limits,
+                     "Allow a larger scene than the limits do, as a refusal says (may be repeated)")
+        ->type_name("NAME=NUMBER")
+        ->allow_extra_args(false);
     return command;
 }
 

@@ -8,8 +8,8 @@
 namespace slurry {
 namespace {
 
-constexpr double rounding = 1e-9;   // radii that discs placed side by side may overlap by
-constexpr double most_cells = 1000; // along an axis: enough for the discs that a scene may have
+constexpr double overlap_rounding = 1e-9; // radii that discs placed side by side may overlap by
+constexpr double most_cells = 1000;       // along an axis: enough for the discs that a scene may have
 
 } // namespace
 
@@ -51,7 +51,7 @@ std::optional<std::size_t> Crowd::too_near(const Rim& rim) const {
             const int j = (row + rows - 1 + dj) % rows;
             for (const std::size_t other : members_[static_cast<std::size_t>(j * columns + i)]) {
                 const double least = std::max(rim.least_distance, rims_[other].least_distance);
-                if (!(gap(rim, other) >= least - rounding * rim.radius))
+                if (!(gap(rim, other) >= least - overlap_rounding * rim.radius))
                     return other;
             }
         }

@@ -33,14 +33,13 @@ double draw_radius(const RandomDiscs& random, gsl_rng* generator) {
     return {};
 }
 
-[[noreturn]] void refuse_many(const DiscGroup& group) {
-    throw GeometryError(fmt::format(
-        "discs '{}': with them there are more than {} discs: ask for a smaller fraction, or larger discs",
-        group.scene->name, most_discs));
+std::string place_of(const DiscGroup& group) {
+    return fmt::format("discs '{}'", group.scene->name);
 }
 
 // Draws radii until enough(the next one) says that it is one too many.
-template <class Enough> void draw_until(DiscGroup& group, double spacing, Enough enough) {
+template <class Enough> void draw_until(DiscGroup& group, const Scene& scene, Enough enough) {
+    const double spacing = scene.numerics.particle_spacing;
     const auto& random = std::get<RandomDiscs>(group.scene->placement);
     for (;;) {
         const double radius = draw_radius(random, group.generator.get());
@@ -53,15 +52,14 @@ template <class Enough> void draw_until(DiscGroup& group, double spacing, Enough
                             "so less spread, larger discs or a particle_spacing of at most {:.4g} m",
                             group.scene->name, radius, 2 * radius / spacing, fewest_spacings_across,
                             2 * radius / fewest_spacings_across));
-        if (group.radii.size() >= most_discs)
-            refuse_many(group);
         group.radii.push_back(radius);
+        check_disc_count(scene, static_cast<double>(group.radii.size()), place_of(group));
     }
 }
 
-void fill_area(DiscGroup& group, double spacing, double wanted) {
+void fill_area(DiscGroup& group, const Scene& scene, double wanted) {
     double area = 0;
-    draw_until(group, spacing, [&](double radius) {
+    draw_until(group, scene, [&](double radius) {
         const double next = std::numbers::pi * radius * radius;
         if (!(area + next / 2 <= wanted))
             return true;
@@ -96,7 +94,7 @@ void fill_weighed(std::vector<DiscGroup>& groups, const Scene& scene, double are
     }
     for (DiscGroup& group : groups)
         if (is_weighed(group))
-            fill_area(group, scene.numerics.particle_spacing, area / per_fluid * area_per_fluid(group));
+            fill_area(group, scene, area / per_fluid * area_per_fluid(group));
 }
 
 DiscGroup start_group(const DiscScene& scene) {
@@ -114,23 +112,21 @@ DiscGroup start_group(const DiscScene& scene) {
 } // namespace
 
 std::vector<DiscGroup> draw_groups(const Scene& scene, double area) {
-    const double spacing = scene.numerics.particle_spacing;
     std::vector<DiscGroup> groups;
     for (const DiscScene& disc : scene.discs) {
         DiscGroup& group = groups.emplace_back(start_group(disc));
         const auto* random = std::get_if<RandomDiscs>(&disc.placement);
         if (random != nullptr && random->count > 0)
-            draw_until(group, spacing,
+            draw_until(group, scene,
                        [&](double) { return group.radii.size() == static_cast<std::size_t>(random->count); });
         else if (random != nullptr && random->area_fraction > 0)
-            fill_area(group, spacing, random->area_fraction * area);
+            fill_area(group, scene, random->area_fraction * area);
     }
     fill_weighed(groups, scene, area);
-    std::size_t total = 0;
+    double total = 0;
     for (const DiscGroup& group : groups) {
-        total += group.radii.size();
-        if (total > most_discs)
-            refuse_many(group);
+        total += static_cast<double>(group.radii.size());
+        check_disc_count(scene, total, place_of(group));
     }
     return groups;
 }

@@ -20,8 +20,8 @@ struct DiscGroup {
 
 // One group for each entry of [[discs]] of the scene, which has to outlive them. A wanted fraction of the
 // area between the walls (m2), or of weight, is reached to within half of the last disc drawn. Throws
-// GeometryError, naming the discs: a fraction that is less than half a disc, drawn discs that are too many or
-// too small.
+// GeometryError, naming the discs: a fraction that is less than half a disc, drawn discs that are too small;
+// and SceneError: more discs than scene.limits.
 std::vector<DiscGroup> draw_groups(const Scene& scene, double area);
 
 } // namespace slurry

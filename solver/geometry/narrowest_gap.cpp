@@ -8,8 +8,8 @@
 namespace slurry {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int samples = 2000;
+constexpr double no_gap = std::numeric_limits<double>::infinity();
+constexpr int samples_along = 2000;
 
 // Where an end of one wall touches the other: the distance between them vanishes there without being a gap.
 std::vector<Vector> junctions(const Wall& one, const Wall& other, double tolerance) {
@@ -37,7 +37,7 @@ double gap_at(const WallPoint& point, const Wall& other) {
     const Vector across = nearest.position - point.position;
     const bool ahead = across.dot(point.normal) > 0.7 * across.norm();
     const bool beyond_end = std::abs(across.dot(nearest.tangent)) > 1e-6 * across.norm();
-    return ahead && !beyond_end && nearest.distance > 0 ? nearest.distance : infinity;
+    return ahead && !beyond_end && nearest.distance > 0 ? nearest.distance : no_gap;
 }
 
 // The lowest point of the parabola through three evenly spaced values of which the middle one is the
@@ -50,20 +50,20 @@ double parabola_minimum(double before, double here, double after) {
 }
 
 double gap_between(const std::vector<Wall>& walls, const Wall& one, const Wall& other, double tolerance) {
-    const std::vector<WallPoint> points = one.sample(samples);
+    const std::vector<WallPoint> points = one.sample(samples_along);
     std::vector<double> gaps;
     for (const WallPoint& point : points) {
         const double gap = gap_at(point, other);
-        gaps.push_back(gap < infinity && hidden(walls, one, point.position, tolerance) ? infinity : gap);
+        gaps.push_back(gap < no_gap && hidden(walls, one, point.position, tolerance) ? no_gap : gap);
     }
     const std::vector<Vector> touching = junctions(one, other, tolerance);
-    const double step = one.length() / samples;
-    double smallest = infinity;
+    const double step = one.length() / samples_along;
+    double smallest = no_gap;
     for (std::size_t i = 0; i < gaps.size(); ++i) {
         const bool closed = one.curve().closed();
-        const double before = i > 0 ? gaps[i - 1] : closed ? gaps.back() : infinity;
-        const double after = i + 1 < gaps.size() ? gaps[i + 1] : closed ? gaps.front() : infinity;
-        if (!(gaps[i] < infinity) || gaps[i] > before || gaps[i] > after)
+        const double before = i > 0 ? gaps[i - 1] : closed ? gaps.back() : no_gap;
+        const double after = i + 1 < gaps.size() ? gaps[i + 1] : closed ? gaps.front() : no_gap;
+        if (!(gaps[i] < no_gap) || gaps[i] > before || gaps[i] > after)
             continue;
         if (std::ranges::any_of(touching, [&](const Vector& joint) {
                 return (points[i].position - joint).norm() < 3 * step;
@@ -78,7 +78,7 @@ double gap_between(const std::vector<Wall>& walls, const Wall& one, const Wall& 
 
 double Region::narrowest_gap() const {
     const double tolerance = 1e-9 * domain_.size().norm();
-    double smallest = infinity;
+    double smallest = no_gap;
     for (const Wall& one : walls_)
         for (const Wall& other : walls_)
             if (&one != &other)

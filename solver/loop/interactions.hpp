@@ -42,7 +42,17 @@ class Interactions {
 // As wide as the machine's vectors, or with plain numbers (the reference that the wide loops are tested
 // against).
 enum class LoopWidth : unsigned char { native, plain };
-// Sums over pairs in the scene's arithmetic and with its kernel; plain is always in double precision.
+// Whether this build has the pair loops of a kernel: builds for the sanitizers and for counting have one only.
+[[nodiscard]] constexpr bool is_built([[maybe_unused]] KernelShape kernel) {
+#ifdef SLURRY_ONLY_KERNEL
+    return kernel == KernelShape::SLURRY_ONLY_KERNEL;
+#else
+    return true;
+#endif
+}
+
+// Sums over pairs in the scene's arithmetic and with its kernel; plain is always in double precision. Throws
+// RunError when the kernel is not built.
 std::unique_ptr<Interactions> make_interactions(const Scene& scene, LoopWidth width = LoopWidth::native);
 
 } // namespace slurry

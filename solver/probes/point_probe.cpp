@@ -11,9 +11,9 @@ namespace {
 
 // Narrower than the wall probe's: with particles all around, a parabola is as good as a cubic, and noise is
 // averaged rather than extrapolated.
-constexpr double weight_width = 1.5;  // particle spacings
-constexpr double search_radius = 3.5; // particle spacings
-constexpr int degree = 2;
+constexpr double weight_width = 1.5;        // particle spacings
+constexpr double point_search_radius = 3.5; // particle spacings
+constexpr int point_degree = 2;
 
 } // namespace
 
@@ -24,7 +24,7 @@ PointValues probe_point(const ParticleFinder& particles, const Region& region, c
         return {nothing, nothing, nothing};
     }
     const double spacing = particles.particle_spacing();
-    const auto near = particles.near(position, search_radius * spacing);
+    const auto near = particles.near(position, point_search_radius * spacing);
     LocalSamples samples(static_cast<Eigen::Index>(near.size()));
     for (Eigen::Index k = 0; k < samples.along.size(); ++k) {
         const Vector offset = near[static_cast<std::size_t>(k)].offset / spacing;
@@ -32,7 +32,7 @@ PointValues probe_point(const ParticleFinder& particles, const Region& region, c
         samples.across[k] = offset.y();
         samples.distance[k] = offset.norm();
     }
-    const auto stencil = value_stencil(samples, degree, weight_width);
+    const auto stencil = value_stencil(samples, point_degree, weight_width);
     if (!stencil) {
         return {nothing, nothing, nothing};
     }

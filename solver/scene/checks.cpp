@@ -12,10 +12,7 @@
 namespace slurry {
 namespace {
 
-constexpr double most_particles = 2e7;
 constexpr double fewest_spacings = 3; // across the domain
-constexpr double most_probe_values = 1e8;
-constexpr double most_snapshot_particles = 1e9;
 
 std::string text_of(const Vector& vector) {
     return fmt::format("[{}, {}]", vector.x(), vector.y());
@@ -42,11 +39,12 @@ void check_domain(const Scene& scene, const Places& places) {
                            size.minCoeff() / fewest_spacings));
     }
     const double particles = (size.x() / spacing) * (size.y() / spacing);
-    if (!(particles <= most_particles)) {
+    if (!(particles <= scene.limits.particles)) {
         refuse(places.of("numerics.particle_spacing"),
                fmt::format("numerics.particle_spacing = {}, about {:.3g} particles", spacing, particles),
-               fmt::format("at most {:.3g} particles, a spacing of {:.4g} (m) or more", most_particles,
-                           std::sqrt(size.x() / most_particles) * std::sqrt(size.y()) * 1.0001));
+               fmt::format("a spacing of {:.4g} (m) or more, particles {}",
+                           std::sqrt(size.x() / scene.limits.particles) * std::sqrt(size.y()) * 1.0001,
+                           limit_text(scene.limits, &Limits::particles, particles)));
     }
 }
 
@@ -153,17 +151,18 @@ void check_sizes(const Scene& scene, const Places& places) {
     for (const ProbeScene& probe : scene.probes) {
         const bool point = std::holds_alternative<PointProbe>(probe.kind);
         values += point ? 3.0 * output.series_samples : values_per_sample(probe) * output.probe_samples;
-        if (!(values <= most_probe_values)) {
-            refuse(places.of("probes." + probe.name + ".points"), fmt::format("{:.3g} probe values", values),
-                   fmt::format("at most {:.3g}: points times samples, of all probes", most_probe_values));
+        if (!(values <= scene.limits.probe_values)) {
+            refuse(places.of("probes." + probe.name + ".points"),
+                   fmt::format("{:.3g} probe values, points times samples of all probes", values),
+                   limit_text(scene.limits, &Limits::probe_values, values));
         }
     }
     const Vector cells = scene.domain.size() / scene.numerics.particle_spacing;
     const double written = cells.prod() * static_cast<double>(output.snapshot_times.size() + 1);
-    if (!(written <= most_snapshot_particles)) {
+    if (!(written <= scene.limits.snapshot_particles)) {
         refuse(places.of("output.snapshot_times"),
                fmt::format("snapshots of {:.3g} particles in all", written),
-               fmt::format("at most {:.3g}", most_snapshot_particles));
+               limit_text(scene.limits, &Limits::snapshot_particles, written));
     }
 }
 

@@ -43,10 +43,7 @@ void check_count(const Scene& scene, const Places& places) {
     for (const DiscScene& disc : scene.discs) {
         const auto* random = std::get_if<RandomDiscs>(&disc.placement);
         count += random == nullptr ? 1 : random->count;
-        if (!(count <= most_discs)) {
-            refuse(places.of(address(disc, "count")), fmt::format("{:.0f} discs", count),
-                   fmt::format("at most {} in all", most_discs));
-        }
+        check_disc_count(scene, count, places.of(address(disc, "count")));
     }
 }
 
@@ -125,6 +122,20 @@ std::pair<double, std::string> smallest_radius(const DiscScene& disc) {
 }
 
 } // namespace
+
+void check_disc_count(const Scene& scene, double count, const std::string& place) {
+    constexpr double values_per_disc = 11; // of a sample
+    if (!(count <= scene.limits.discs)) {
+        refuse(place, fmt::format("{:.0f} discs", count), limit_text(scene.limits, &Limits::discs, count));
+    }
+    const double values = values_per_disc * count * scene.output.series_samples;
+    if (!(values <= scene.limits.series_values)) {
+        refuse(place,
+               fmt::format("{:.0f} discs with output.series_samples = {}, {:.3g} values", count,
+                           scene.output.series_samples, values),
+               limit_text(scene.limits, &Limits::series_values, values));
+    }
+}
 
 void check_discs(const Scene& scene, const Places& places) {
     check_names(scene, places);

@@ -7,14 +7,15 @@
 
 namespace slurry {
 
-// More are taken for a mistake.
-inline constexpr int most_discs = 100'000;
 // A disc of fewer particle spacings across is refused.
 inline constexpr double fewest_spacings_across = 3;
 
-// Throws SceneError: names that a random group gives its discs, too, more discs than most_discs, groups with
-// no or more than one of count, area_fraction and weight_fraction, keys that do not fit `sizes`, fixed discs
-// that move, a contact distance below the particle spacing.
+// Throws SceneError when so many discs, or the samples of so many, exceed scene.limits.
+void check_disc_count(const Scene& scene, double count, const std::string& place);
+
+// Throws SceneError: names that a random group gives its discs, too, more discs than scene.limits, groups
+// with no or more than one of count, area_fraction and weight_fraction, keys that do not fit `sizes`, fixed
+// discs that move, a contact distance below the particle spacing.
 void check_discs(const Scene& scene, const Places& places);
 
 // Warns of discs of few particle spacings across, one line each, and throws SceneError when there are too few

@@ -209,7 +209,7 @@ const std::vector<Parameter> parameter_table{
     {"discs", "single", "radius", member(&SingleDisc::radius), "m", required, positive(), "of the disc"},
     {"discs", "single", "position", member(&SingleDisc::position), "m", required, anything(),
      "of the centre at the start [x, y]"},
-    {"discs", "random", "count", member(&RandomDiscs::count), "", std::int64_t{0}, between(0, 100'000),
+    {"discs", "random", "count", member(&RandomDiscs::count), "", std::int64_t{0}, between(0, 1e8),
      "of discs; one of count, area_fraction and weight_fraction is not 0"},
     {"discs", "random", "area_fraction", member(&RandomDiscs::area_fraction), "", 0.0, between(0, 1),
      "area of the discs over the area between the walls"},

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t largest_file = std::size_t{64} << 20U;
 constexpr std::string_view blanks = " \t\r";
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(blanks);
     return begin == std::string_view::npos ? ""
                                            : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
@@ -36,8 +36,9 @@ template <std::size_t Columns> std::optional<std::array<double, Columns>> number
     for (std::size_t column = 0; column < Columns; ++column) {
         const bool last = column + 1 == Columns;
         const std::size_t comma = last ? line.size() : line.find(',');
-        const auto number =
-            comma == std::string_view::npos ? std::nullopt : finite_number(trimmed(line.substr(0, comma)));
+        const auto number = comma == std::string_view::npos
+                                ? std::nullopt
+                                : finite_number(without_blanks(line.substr(0, comma)));
         if (!number) {
             return std::nullopt;
         }
@@ -49,10 +50,7 @@ template <std::size_t Columns> std::optional<std::array<double, Columns>> number
 
 // Calls take(numbers, here) for each line that is not blank; here() names the line.
 template <std::size_t Columns, class Take>
-void for_each_row(const std::filesystem::path& path, const std::string& place, std::string_view allowed,
-                  Take take) {
-    const std::string text = read_bounded_file(path, largest_file, place);
-    const std::string name = printable(path.string());
+void for_each_row(std::string_view text, const std::string& name, std::string_view allowed, Take take) {
     std::string_view rest = text;
     if (rest.starts_with("\xEF\xBB\xBF")) { // spreadsheets begin UTF-8 files with this mark
         rest.remove_prefix(3);
@@ -60,7 +58,7 @@ void for_each_row(const std::filesystem::path& path, const std::string& place, s
     for (std::size_t number = 1; !rest.empty(); ++number) {
         const std::string_view whole = rest.substr(0, rest.find('\n'));
         rest.remove_prefix(std::min(whole.size() + 1, rest.size()));
-        const std::string_view line = trimmed(whole.substr(0, whole.find('#')));
+        const std::string_view line = without_blanks(whole.substr(0, whole.find('#')));
         if (line.empty()) {
             continue;
         }
@@ -94,7 +92,7 @@ std::string read_bounded_file(const std::filesystem::path& path, std::size_t lim
     return text;
 }
 
-std::vector<Vector> read_profile(const std::filesystem::path& path, const std::string& place) {
+std::vector<Vector> parse_profile(std::string_view text, const std::string& name, const std::string& place) {
     std::vector<Vector> points;
     const auto take = [&](const std::array<double, 2>& point, const auto& here) {
         if (!points.empty() && point[0] <= points.back().x()) {
@@ -102,15 +100,14 @@ std::vector<Vector> read_profile(const std::filesystem::path& path, const std::s
         }
         points.emplace_back(point[0], point[1]);
     };
-    for_each_row<2>(path, place, "two finite numbers x, y (m), or # before a comment", take);
+    for_each_row<2>(text, name, "two finite numbers x, y (m), or # before a comment", take);
     if (points.size() < 2) {
-        refuse(place, fmt::format("{} with {} points", printable(path.string()), points.size()),
-               "at least 2");
+        refuse(place, fmt::format("{} with {} points", name, points.size()), "at least 2");
     }
     return points;
 }
 
-std::vector<double> read_radii(const std::filesystem::path& path, const std::string& place) {
+std::vector<double> parse_radii(std::string_view text, const std::string& name, const std::string& place) {
     std::vector<double> radii;
     const auto take = [&](const std::array<double, 1>& radius, const auto& here) {
         if (!(radius[0] > 0)) {
@@ -118,11 +115,19 @@ std::vector<double> read_radii(const std::filesystem::path& path, const std::str
         }
         radii.push_back(radius[0]);
     };
-    for_each_row<1>(path, place, "one finite number, a radius (m), or # before a comment", take);
+    for_each_row<1>(text, name, "one finite number, a radius (m), or # before a comment", take);
     if (radii.empty()) {
-        refuse(place, fmt::format("{} without radii", printable(path.string())), "at least one");
+        refuse(place, fmt::format("{} without radii", name), "at least one");
     }
     return radii;
+}
+
+std::vector<Vector> read_profile(const std::filesystem::path& path, const std::string& place) {
+    return parse_profile(read_bounded_file(path, largest_file, place), printable(path.string()), place);
+}
+
+std::vector<double> read_radii(const std::filesystem::path& path, const std::string& place) {
+    return parse_radii(read_bounded_file(path, largest_file, place), printable(path.string()), place);
 }
 
 } // namespace slurry

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace slurry {
@@ -13,13 +14,18 @@ namespace slurry {
 [[nodiscard]] std::string read_bounded_file(const std::filesystem::path& path, std::size_t limit,
                                             const std::string& place);
 
-// Both take files of at most 64 MiB, blank lines and # comments left out, and throw SceneError at the file
-// and line at fault, or at `place` (the scene's mention of it) if it cannot be read or holds too little.
+// All leave blank lines and # comments out, and throw SceneError at the file and line at fault, or at `place`
+// (the scene's mention of it) if it holds too little, cannot be read or is larger than 64 MiB. The parsers
+// read a text that messages call `name`.
 
 // Points x, y (m): one `x, y` a line, x ascending.
 [[nodiscard]] std::vector<Vector> read_profile(const std::filesystem::path& path, const std::string& place);
+[[nodiscard]] std::vector<Vector> parse_profile(std::string_view text, const std::string& name,
+                                                const std::string& place);
 
 // Radii (m): one a line, at least one, all positive.
 [[nodiscard]] std::vector<double> read_radii(const std::filesystem::path& path, const std::string& place);
+[[nodiscard]] std::vector<double> parse_radii(std::string_view text, const std::string& name,
+                                              const std::string& place);
 
 } // namespace slurry

@@ -9,6 +9,7 @@
 #include "solver/scene/refusal.hpp"
 #include "solver/scene/resolved.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -25,10 +26,11 @@ class Reader {
     }
 
     [[nodiscard]] Scene read() {
+        const Node absent{document_.place, NodeTable{}};
         for (const Section& section : sections()) {
             const Entry* entry = find(std::get<NodeTable>(document_.value), section.name);
             if (!section.repeated()) {
-                read_table(section, entry == nullptr ? Node{document_.place, NodeTable{}} : entry->node, 0);
+                read_table(section, entry == nullptr ? absent : entry->node, 0);
             } else if (entry != nullptr) {
                 for (const Node& table : std::get<std::vector<Node>>(entry->node.value)) {
                     section.append(scene_);
@@ -106,7 +108,16 @@ class Reader {
     Scene scene_;
 };
 
-// The file as this process finds it: paths are relative to the scene's folder and may not leave it.
+// Whether a path is in the folder or below, links followed.
+bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    std::error_code error;
+    const auto base = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
+    const auto target = std::filesystem::weakly_canonical(file, error);
+    return !error && std::ranges::mismatch(base, target).in1 == base.end();
+}
+
+// The file as this process finds it: paths are relative to the scene's folder and may not leave it, not even
+// by a link, because a scene may come from somebody else; an absolute path is one that its user can see.
 std::filesystem::path located(const std::filesystem::path& file, const Scene& scene,
                               const std::string& place) {
     const std::filesystem::path normal = file.lexically_normal();
@@ -114,7 +125,16 @@ std::filesystem::path located(const std::filesystem::path& file, const Scene& sc
         refuse(place, fmt::format("the file \"{}\"", printable(file.string())),
                "a file in the scene's folder or below, or an absolute path");
     }
-    return file.is_relative() ? scene.path.parent_path() / normal : normal;
+    if (file.is_absolute()) {
+        return normal;
+    }
+    std::filesystem::path path = scene.path.parent_path() / normal;
+    if (!is_in(path, scene.path.parent_path())) {
+        refuse(place,
+               fmt::format("the file \"{}\", a link out of the scene's folder", printable(file.string())),
+               "a file in the scene's folder or below, or an absolute path");
+    }
+    return path;
 }
 
 void load_files(Scene& scene, const Places& places) {
@@ -138,7 +158,7 @@ void load_files(Scene& scene, const Places& places) {
 } // namespace
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& path,
-                  std::span<const std::string> overrides) {
+                  std::span<const std::string> overrides, const Limits& limits) {
     Node document = parse_document(text, printable(path.string()));
     check_structure(document);
     for (const std::string& change : overrides) {
@@ -147,6 +167,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
     Places places;
     Scene scene = Reader(document, places).read();
     scene.path = path;
+    scene.limits = limits;
     check_scene(scene, places);
     scene.resolved_text = resolved_text(scene); // before paths are made relative to this process
     load_files(scene, places);
@@ -154,8 +175,10 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
     return scene;
 }
 
-Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
-    return parse_scene(read_bounded_file(path, largest_scene, printable(path.string())), path, overrides);
+Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides,
+                 const Limits& limits) {
+    return parse_scene(read_bounded_file(path, largest_scene, printable(path.string())), path, overrides,
+                       limits);
 }
 
 } // namespace slurry

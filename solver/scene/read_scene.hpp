@@ -19,12 +19,12 @@ class SceneError : public std::runtime_error {
 
 // Reads a scene (at most 1 MiB) and applies the overrides in their order. An override is `table.key=value`,
 // or `walls.NAME.key=value` for a table of an array; the value is TOML, a bare word being a string. Throws
-// SceneError on anything that is not declared, missing, out of range or contradictory.
-[[nodiscard]] Scene read_scene(const std::filesystem::path& path,
-                               std::span<const std::string> overrides = {});
+// SceneError on anything that is not declared, missing, out of range, contradictory or beyond the limits.
+[[nodiscard]] Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {},
+                               const Limits& limits = {});
 
 // The same for a text that `path` names in messages, and whose folder the files it names are relative to.
 [[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& path,
-                                std::span<const std::string> overrides = {});
+                                std::span<const std::string> overrides = {}, const Limits& limits = {});
 
 } // namespace slurry

@@ -21,8 +21,9 @@ std::string printable(std::string_view text) {
     constexpr std::size_t longest = 80;
     std::string line(text.substr(0, longest));
     if (text.size() > longest) {
-        while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U) {
-            line.pop_back(); // never cut a UTF-8 character in two
+        // A UTF-8 character, which is not to be cut in two, has at most three bytes after the first.
+        for (int k = 0; k < 3 && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U; ++k) {
+            line.pop_back();
         }
         line.replace(line.size() - 1, 1, "...");
     }

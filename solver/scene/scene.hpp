@@ -1,5 +1,6 @@
 #pragma once
 // A scene as the solver sees it: plain values in SI units, already validated by read_scene.
+#include "solver/scene/limits.hpp"
 #include "solver/vector.hpp"
 
 #include <array>
@@ -201,6 +202,7 @@ struct Scene {
     Contact contact;
     std::vector<ProbeScene> probes;
     Output output;
+    Limits limits;              // not from the scene file: what whoever runs it allows
     std::filesystem::path path; // the scene file
     std::string resolved_text;  // the scene as TOML with every key, defaults and --set values filled in
     std::vector<std::string> warnings; // one line each: what is allowed, but unlikely to be meant

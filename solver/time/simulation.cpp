@@ -6,6 +6,7 @@
 #include "solver/output/progress.hpp"
 #include "solver/output/result_file.hpp"
 #include "solver/particles/arrangement.hpp"
+#include "solver/scene/refusal.hpp"
 #include "solver/terms/selection.hpp"
 #include "solver/time/recorder.hpp"
 #include "solver/time/time_step.hpp"
@@ -16,6 +17,7 @@
 #include <fmt/ostream.h>
 #include <omp.h>
 #include <unistd.h>
+#include <version.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +30,16 @@ namespace {
 // The walls' distances make a check as dear as a few steps; this many in a run cost about 1 %.
 constexpr long checks_per_run = 50;
 
-// Steps of equal length that end exactly at the end time.
+// Steps of equal length that end exactly at the end time. Throws SceneError when they are beyond the limits.
 long step_count(const Scene& scene, double time_step) {
-    return std::max(1L, static_cast<long>(std::ceil(scene.output.end_time / time_step * (1 - 1e-12))));
+    const double steps = std::ceil(scene.output.end_time / time_step * (1 - 1e-12));
+    if (!(steps <= scene.limits.steps)) {
+        refuse(printable(scene.path.string()),
+               fmt::format("{:.4g} steps of {:.4g} s to output.end_time = {} (s)", steps, time_step,
+                           scene.output.end_time),
+               limit_text(scene.limits, &Limits::steps, steps));
+    }
+    return std::max(1L, static_cast<long>(steps));
 }
 
 // Waking a thread takes as long as the pairs of some hundred particles. The answer is the same for any

@@ -419,3 +419,14 @@ def test_unstable_run_ends_with_status_3(scene: Path) -> None:
     words = [f"--set={setting}" for setting in settings]
     assert_refused(slurry("run", scene, "--quiet", *words, cwd=scene.parent), status=3)
     assert not list((scene.parent / "scene.out").iterdir())
+
+
+def test_limits_on_sizes_are_the_users(scene: Path) -> None:
+    assert_refused(
+        slurry("check", scene, "--limit", "particles=10", cwd=scene.parent),
+        "numerics.particle_spacing = 1e-06, about 100 particles",
+        "at most 10; --limit particles=100 would allow it",
+    )
+    assert slurry("check", scene, "--limit", "particles=101", cwd=scene.parent).returncode == 0
+    assert_refused(slurry("run", scene, "--limit", "steps=2", cwd=scene.parent), "steps of", "--limit steps=")
+    assert_refused(slurry("run", scene, "--limit", "step=2", cwd=scene.parent), "a NAME of particles, discs")

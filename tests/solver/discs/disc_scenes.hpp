@@ -59,7 +59,7 @@ inline std::vector<PlacedDisc> place(const Scene& scene) {
 inline std::string refusal(const Scene& scene) {
     try {
         return fmt::format("PLACED {}", place(scene).size());
-    } catch (const GeometryError& error) {
+    } catch (const std::runtime_error& error) { // GeometryError, or SceneError beyond the limits
         return error.what();
     }
 }

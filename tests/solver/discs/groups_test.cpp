@@ -100,7 +100,7 @@ TEST(DiscGroups, AreRefusedWhenTheyAreTooFewTooManyOrTooSmall) {
     random.radius = 1e-3;
     scene.numerics.particle_spacing = 1e-4;
     scene.discs = {random_discs("grain", random), random_discs("dust", random)};
-    EXPECT_NE(refusal(scene).find("discs 'dust': with them there are more than 100000 discs"),
+    EXPECT_NE(refusal(scene).find("discs, allowed at most 1e+05; --limit discs=1.28e+05 would allow it"),
               std::string::npos)
         << refusal(scene);
 

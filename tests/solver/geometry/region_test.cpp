@@ -15,7 +15,7 @@ using testing::make_scene;
 using testing::make_wall;
 using testing::rough_channel;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::size_t count(const std::vector<std::vector<Dummy>>& dummies) {
     std::size_t sum = 0;

@@ -15,7 +15,7 @@ namespace {
 using testing::make_domain;
 using testing::make_wall;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Case {
     WallScene wall;

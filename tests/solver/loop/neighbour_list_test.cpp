@@ -19,7 +19,7 @@ using Points = std::vector<Vector>;
 using Lists =
     std::vector<std::vector<std::uint32_t>>; // per target: neighbours' identities, sorted, repeats kept
 
-constexpr double reach = 0.13;
+constexpr double list_reach = 0.13;
 const Domain unit_domain{{-0.4, 0.3}, {0.6, 1.3}, {false, false}};
 
 Points ordered_points(int n) {
@@ -95,7 +95,7 @@ Lists brute_force(const Particles& particles, const Domain& domain, bool fluid_o
                     r[axis] -= std::round(r[axis] / domain.size()[axis]) * domain.size()[axis];
                 }
             }
-            if (i != j && r.norm() < reach) {
+            if (i != j && r.norm() < list_reach) {
                 lists[i].push_back(j);
             }
         }
@@ -134,13 +134,13 @@ void expect_lists_match(const Points& points, std::array<bool, 2> periodic, int 
     Domain domain = unit_domain;
     domain.periodic = periodic;
     PeriodicRows rows;
-    rows.rebuild(particles, domain, reach, reach);
+    rows.rebuild(particles, domain, list_reach, list_reach);
     NeighbourList fluid_list(width, NeighbourSearch::strips);
     NeighbourList dummy_list(width, NeighbourSearch::strips);
     const std::size_t fluid_count = rows.fluid_count();
     const std::size_t count = rows.particle_count();
-    fluid_list.build(rows.x(), rows.y(), rows.all_rows(), 0, fluid_count, rows.padding(), reach);
-    dummy_list.build(rows.x(), rows.y(), rows.fluid_rows(), fluid_count, count, rows.padding(), reach);
+    fluid_list.build(rows.x(), rows.y(), rows.all_rows(), 0, fluid_count, rows.padding(), list_reach);
+    dummy_list.build(rows.x(), rows.y(), rows.fluid_rows(), fluid_count, count, rows.padding(), list_reach);
     const Lists of_fluid = listed(rows, fluid_list, width, 0, fluid_count);
     const Lists of_dummies = listed(rows, dummy_list, width, fluid_count, count);
     const Lists expected_of_fluid = brute_force(particles, domain, false);

@@ -10,7 +10,7 @@
 namespace slurry::testing {
 namespace {
 
-constexpr double reach = 0.3;
+constexpr double row_reach = 0.3;
 
 // A quantity that names its particle travels with it through every array.
 void tag(Particles& particles) {
@@ -30,7 +30,7 @@ TEST(PeriodicRows, SortingKeepsEachParticleTogether) {
     tag(particles);
     const Particles before = particles;
     PeriodicRows rows;
-    rows.rebuild(particles, scene.domain, reach, reach);
+    rows.rebuild(particles, scene.domain, row_reach, row_reach);
     std::set<std::uint32_t> identities;
     for (std::size_t i = 0; i < particles.fluid.size(); ++i) {
         const std::uint32_t identity = particles.fluid.identity[i];
@@ -50,7 +50,7 @@ TEST(PeriodicRows, SortedDummiesStayWithTheirWall) {
     const Scene scene = flat_channel(12, 1);
     Particles particles = arrange(scene);
     PeriodicRows rows;
-    rows.rebuild(particles, scene.domain, reach, reach);
+    rows.rebuild(particles, scene.domain, row_reach, row_reach);
     for (std::size_t d = 0; d < particles.dummies.size(); ++d) {
         EXPECT_EQ(particles.dummies.wall[d], particles.dummies.y[d] < 0.7 ? 0 : 1);
         EXPECT_EQ(particles.dummies.x[d], particles.dummies.start_x[d]);
@@ -66,7 +66,7 @@ TEST(PeriodicRows, WrapsParticlesIntoTheDomainAndMovesTheDummiesStartAlong) {
     }
     particles.dummies.move_walls_to(3.4);
     PeriodicRows rows;
-    rows.rebuild(particles, scene.domain, reach, reach);
+    rows.rebuild(particles, scene.domain, row_reach, row_reach);
     for (const auto* positions : {&particles.fluid.x, &particles.dummies.x}) {
         for (const double x : *positions) {
             EXPECT_GE(x, scene.domain.lower.x());
@@ -84,7 +84,7 @@ TEST(PeriodicRows, CopiesLieOnePeriodAwayWithinReach) {
     const Scene scene = doubly_periodic(12);
     Particles particles = arrange(scene);
     PeriodicRows rows;
-    rows.rebuild(particles, scene.domain, reach, reach);
+    rows.rebuild(particles, scene.domain, row_reach, row_reach);
     EXPECT_EQ(rows.row_count(), rows.particle_count() + rows.copies().size() + 1);
     for (std::size_t c = 0; c < rows.copies().size(); ++c) {
         const PeriodicRows::Copy& copy = rows.copies()[c];

@@ -130,7 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "discs \"random\" are named random_1, random_2, ..."},
         Refusal{{"discs.random.name=random_1x", "discs.single.name=random_"}, "ACCEPTED"},
         Refusal{{"discs.random.count=100000"},
-                "--set discs.random.count=100000: found 100001 discs, allowed at most 100000 in all"},
+                "--set discs.random.count=100000: found 100001 discs, allowed at most 1e+05; "
+                "--limit discs=1.01e+05 would allow it"},
         Refusal{{"discs.random.count=0"},
                 "scene.toml:91:1: found count = 0, area_fraction = 0 and weight_fraction = 0 of the random "
                 "discs \"random\", allowed exactly one of the three that is not 0"},

@@ -54,6 +54,12 @@ TEST_F(Profile, StaysInTheFolderUnlessAbsolute) {
     EXPECT_NE(refusal(full_scene, {"walls.profile.file=\"" + escape + "\""})
                   .find("allowed a file in the scene's folder"),
               std::string::npos);
+    std::filesystem::create_symlink("below/pad.csv", path("inside.csv"));
+    EXPECT_EQ(file("inside.csv"), path("inside.csv"));
+    std::filesystem::create_symlink("/etc/passwd", path("outside.csv"));
+    EXPECT_NE(
+        refusal(full_scene, {"walls.profile.file=outside.csv"}).find("a link out of the scene's folder"),
+        std::string::npos);
     EXPECT_NE(refusal(full_scene, {"walls.profile.file=below"}).find("found no regular file"),
               std::string::npos);
 }

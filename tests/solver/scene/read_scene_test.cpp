@@ -134,8 +134,8 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"upper = [4, 4]", "upper = [-4, 4]", "allowed lower < upper in x and in y"},
         Fault{"spacing = 0.1", "spacing = 1e-4",
               "scene.toml:10:20: found numerics.particle_spacing = 0.0001, about "
-              "1.6e+09 particles, allowed at most 2e+07 particles, a spacing of "
-              "0.0008945 (m) or more"},
+              "1.6e+09 particles, allowed a spacing of 0.0008945 (m) or more, particles at most 2e+07; "
+              "--limit particles=1.6e+09 would allow it"},
         Fault{"spacing = 0.1", "spacing = 1e-320", "about inf particles"},
         Fault{"upper = [4, 4]", "upper = [1e308, 1e308]", "about inf particles"},
         Fault{"spacing = 0.1", "spacing = 2", "3 particles across the domain"},
@@ -155,7 +155,9 @@ INSTANTIATE_TEST_SUITE_P(
               "found 2 after 0.5, allowed ascending times"},
         Fault{"end_time = 1", "end_time = 1\nsnapshot_times = [0.5, 0.5]", "found 0.5 after 0.5"},
         Fault{"end_time = 1", "end_time = 0", "allowed a number > 0 (s)"},
-        Fault{"points = [3, 4]", "points = [9999, 9999]", "allowed at most 1e+08: points times samples"},
+        Fault{"points = [3, 4]", "points = [9999, 9999]",
+              "found 3e+09 probe values, points times samples of all probes, allowed at most 1e+08; --limit "
+              "probe_values="},
         Fault{"end_time = 1", "end_time = 1e999", "scene.toml:82:17: found no TOML"},
         Fault{"[[walls]]", "[walls]", "cannot redefine"},
         Fault{"[output]", "[[output]]", "found output = an array of 1, allowed one table [output]"},

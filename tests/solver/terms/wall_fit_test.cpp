@@ -108,7 +108,7 @@ Particles single_row(const Scene& scene) {
     return particles;
 }
 
-void extrapolate(const Scene& scene, Particles& particles) {
+void fit_to_walls(const Scene& scene, Particles& particles) {
     const auto interactions = make_interactions(scene);
     interactions->refresh_neighbours(particles);
     interactions->extrapolate_to_walls(particles);
@@ -122,7 +122,7 @@ TEST(WallFit, FallsBackToAStraightLineBesideASingleRow) {
     std::fill(fluid.velocity_x.begin(), fluid.velocity_x.end(), 0.4);
     std::fill(fluid.velocity_y.begin(), fluid.velocity_y.end(), -0.1);
     std::fill(fluid.pressure.begin(), fluid.pressure.end(), 123.0);
-    extrapolate(scene, particles);
+    fit_to_walls(scene, particles);
     const DummyParticles& dummies = particles.dummies;
     for (std::size_t d = 0; d < dummies.size(); ++d) {
         if (dummies.wall[d] == 0) { // antisymmetric about the wall's velocity at the depth of the row
@@ -138,7 +138,7 @@ TEST(WallFit, StaysFiniteBesideASingleDisorderedRow) {
     const Scene scene = flat_channel(12, 0.7);
     Particles particles = single_row(scene);
     disorder(particles, scene);
-    extrapolate(scene, particles);
+    fit_to_walls(scene, particles);
     const DummyParticles& dummies = particles.dummies;
     const double deepest = *std::max_element(dummies.depth.begin(), dummies.depth.end());
     const double ratio = deepest / (0.5 * scene.numerics.particle_spacing);
@@ -153,7 +153,7 @@ TEST(WallFit, LeavesTheWallsVelocityAndNoPressureWithoutFluidInReach) {
     Particles particles = single_row(scene);
     disorder(particles, scene);
     std::fill(particles.dummies.pressure.begin(), particles.dummies.pressure.end(), 5.0);
-    extrapolate(scene, particles);
+    fit_to_walls(scene, particles);
     const DummyParticles& dummies = particles.dummies;
     std::size_t of_lid = 0;
     for (std::size_t d = 0; d < dummies.size(); ++d) {
