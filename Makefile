@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test reference verify report faults baseline bench bench-peers counts lint sanitize fuzz flows format docs clean
+.PHONY: help setup configure build test test-kill reference verify report faults baseline bench bench-peers counts lint sanitize fuzz flows format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -29,6 +29,9 @@ build: configure ## Build build/slurry and its tests
 test: build ## Unit tests: GoogleTest through ctest, then pytest
 	@ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure --no-tests=error
 	@$(PYTHON) -m pytest tests/python
+
+test-kill: build ## Kill a run with SIGKILL at 50 random moments, resume it, and compare every bit
+	@$(PYTHON) -m pytest tests/python/test_resume.py -k killed --kills 50
 
 reference: setup ## Make the reference solutions that verify compares with (cached in build/reference)
 	@$(PYTHON) -m reference.make

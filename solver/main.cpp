@@ -9,12 +9,12 @@
 #include "solver/particles/arrangement.hpp"
 #include "solver/scene/manual.hpp"
 #include "solver/scene/read_scene.hpp"
+#include "solver/time/checkpoint_folder.hpp"
 #include "solver/time/simulation.hpp"
 #include "solver/time/watchdog.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <version.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -34,11 +34,14 @@ namespace {
 
 constexpr int bad_input = 2;
 constexpr int run_went_wrong = 3;
+constexpr int run_interrupted = 4;
 
 struct Arguments {
     std::filesystem::path scene;
     std::string spacing;
     std::vector<std::string> overrides, limits;
+    std::filesystem::path resume;
+    std::string checkpoint_interval;
     RunOptions run;
     std::string topic;
     bool markdown = false;
@@ -53,24 +56,40 @@ void print(std::string_view text) {
                                       errno == 0 ? "" : std::strerror(errno)));
 }
 
-Scene scene_of(const Arguments& arguments) {
+void warn(const std::string& text) {
+    std::cerr << "warning: " << text << '\n';
+}
+
+// Of a checkpoint when there is one and no scene is named.
+Scene scene_of(const Arguments& arguments, const std::filesystem::path& checkpoint = {}) {
     std::vector<std::string> overrides = arguments.overrides;
     if (!arguments.spacing.empty())
         overrides.push_back("numerics.particle_spacing=" + arguments.spacing);
+    if (!arguments.checkpoint_interval.empty())
+        overrides.push_back("output.checkpoint_interval=" + arguments.checkpoint_interval);
     Limits limits;
     for (const std::string& limit : arguments.limits)
         set_limit(limits, limit);
-    Scene scene = read_scene(arguments.scene, overrides, limits);
-    for (const std::string& warning : scene.warnings)
-        std::cerr << "warning: " << warning << '\n';
+    Scene scene = arguments.scene.empty() ? read_checkpoint_scene(checkpoint, overrides, limits)
+                                          : read_scene(arguments.scene, overrides, limits);
+    std::ranges::for_each(scene.warnings, warn);
     return scene;
 }
 
 void run(const Arguments& arguments) {
     RunOptions options = arguments.run;
-    if (options.folder.empty())
+    if (!arguments.resume.empty()) {
+        const FoundCheckpoint found = find_checkpoint(arguments.resume);
+        if (!found.warning.empty())
+            warn(found.warning);
+        options.folder = arguments.resume;
+        options.resume_from = found.path;
+    } else if (arguments.scene.empty()) {
+        throw CLI::RequiredError("SCENE");
+    } else if (options.folder.empty()) {
         options.folder = arguments.scene.stem() += ".out";
-    run_scene(scene_of(arguments), options);
+    }
+    run_scene(scene_of(arguments, options.resume_from), options);
     print(""); // or a summary that got lost would go unnoticed
 }
 
@@ -104,7 +123,7 @@ void bench(const Arguments& arguments) {
 CLI::App* add_scene_command(CLI::App& app, const char* name, const char* description, Arguments& arguments) {
     CLI::App* command = app.add_subcommand(name, description);
     command->add_option("SCENE", arguments.scene, "Scene file (TOML); `slurry help scene` describes it")
-        ->required();
+        ->required(std::string_view(name) != "run");
     command
         ->add_option("--spacing", arguments.spacing,
                      "Particle spacing, m: short for --set numerics.particle_spacing=M")
@@ -129,13 +148,23 @@ void add_bench_command(CLI::App& app, Arguments& arguments) {
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
-    app.set_version_flag("--version", "slurry " SLURRY_VERSION);
+    app.set_version_flag("--version", "slurry " + program_version());
     app.require_subcommand(1);
     CLI::App* runner = add_scene_command(app, "run", "Simulate a scene", arguments);
+    CLI::Option* out =
+        runner
+            ->add_option("--out", arguments.run.folder,
+                         "Folder for result.h5 and result.xdmf, made when missing (SCENE's stem + .out)")
+            ->type_name("DIR");
     runner
-        ->add_option("--out", arguments.run.folder,
-                     "Folder for result.h5 and result.xdmf, made when missing (SCENE's stem + .out)")
-        ->type_name("DIR");
+        ->add_option("--resume", arguments.resume,
+                     "Go on from the checkpoint in this folder; SCENE may be left out, or has to be the same")
+        ->type_name("DIR")
+        ->excludes(out);
+    runner
+        ->add_option("--checkpoint-interval", arguments.checkpoint_interval,
+                     "Wall time between checkpoints, s: short for --set output.checkpoint_interval=S")
+        ->type_name("S");
     arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     runner
         ->add_option("--threads", arguments.run.threads,
@@ -192,6 +221,10 @@ int run_and_report(int count, char** words) {
         return fail(fmt::format("{}: {}", arguments.scene.string(), error.what()), bad_input);
     } catch (const OutputError& error) {
         return fail(error.what(), bad_input);
+    } catch (const CheckpointError& error) {
+        return fail(error.what(), bad_input);
+    } catch (const RunInterrupted& end) {
+        return fail(end.what(), run_interrupted);
     } catch (const std::bad_alloc&) {
         return fail(
             "out of memory: found more particles or samples than fit; choose a larger particle_spacing",

@@ -25,6 +25,11 @@ class DiscContacts {
     // Between rims, or a rim and a wall, of all calls so far, m: infinite until two are near, negative for an
     // overlap.
     [[nodiscard]] double least_gap() const { return least_gap_; }
+    // Goes on from what an earlier run of the same scene found.
+    void restore(double least_gap, double first_contact_time) {
+        least_gap_ = least_gap;
+        first_contact_time_ = first_contact_time;
+    }
     // When two discs first repelled each other, s; negative if none did.
     [[nodiscard]] double first_contact_time() const { return first_contact_time_; }
 

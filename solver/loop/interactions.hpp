@@ -1,6 +1,7 @@
 #pragma once
 // What the time step asks of the particles' interactions; the widths and compositions behind it are chosen
 // once.
+#include "solver/loop/list_origin.hpp"
 #include "solver/particles/particles.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -27,6 +28,10 @@ class Interactions {
     // Brings the neighbour lists up to date with the positions. Wraps and sorts the particles when it
     // rebuilds them.
     virtual void refresh_neighbours(Particles& particles) = 0;
+    // For resuming a run: what the lists were made from, and making them again from it. The particles have to
+    // be in the order that they had.
+    [[nodiscard]] virtual ListOrigin list_origin() const = 0;
+    virtual void restore_lists(const Particles& particles, const ListOrigin& origin) = 0;
     // Eq. 2.14 with the scene's corrections, into fluid.density_rate.
     virtual void compute_density_rate(Particles& particles) = 0;
     // m / rho or 1 / sum W (below Eq. 2.8), as the scene says, into fluid.volume.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <exception>
 #include <numeric>
 
 namespace slurry {
@@ -100,6 +101,7 @@ void NeighbourList::build(std::span<const double> x, std::span<const double> y,
     blocks_.resize(block_count);
     chunks_.resize((block_count + chunk_blocks - 1) / chunk_blocks);
     const auto chunk_count = static_cast<std::ptrdiff_t>(chunks_.size());
+    std::exception_ptr failure; // out of memory: no exception may leave a parallel region
 #pragma omp parallel
     {
         NeighbourLists lists;
@@ -108,9 +110,17 @@ void NeighbourList::build(std::span<const double> x, std::span<const double> y,
             const auto chunk = static_cast<std::size_t>(signed_chunk);
             const std::size_t targets = chunk_blocks * width_;
             const std::size_t begin = first + chunk * targets;
-            finder->find(begin, std::min(begin + targets, last), lists);
-            fill_chunk(chunk, lists, padding);
+            try {
+                finder->find(begin, std::min(begin + targets, last), lists);
+                fill_chunk(chunk, lists, padding);
+            } catch (...) {
+#pragma omp critical
+                failure = std::current_exception();
+            }
         }
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
     }
 }
 

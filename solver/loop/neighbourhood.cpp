@@ -42,27 +42,65 @@ void Neighbourhood::refresh(Particles& particles) {
         }
         refuse_flight(particles, displacement);
     }
-    const double reach = std::max(support_, wall_support_) + skin_;
-    // The wall point of a dummy beside a periodic side may lie beyond it, by as much as the dummy is deep.
-    const auto& depths = particles.dummies.depth;
-    const double deepest =
-        wall_points_ && !depths.empty() ? *std::max_element(depths.begin(), depths.end()) : 0;
-    // Wide cells make long runs of particles. Particles sorted by the search's rows are found in order.
-    const Vector cell(cell_size(2 * reach, domain_.size().x(), domain_.periodic[0]),
-                      cell_size(CellGrid::row_height(reach), domain_.size().y(), domain_.periodic[1]));
-    periodic_.rebuild(particles, domain_, cell.y(), reach + deepest);
-    watch_.start(particles, periodic_.x(), periodic_.y(), domain_, cell);
+    periodic_.rebuild(particles, domain_, cell().y(), reach_beyond_sides(particles.dummies));
+    make_lists(particles);
+    ++rebuilds_;
+}
+
+double Neighbourhood::reach() const {
+    return std::max(support_, wall_support_) + skin_;
+}
+
+// The wall point of a dummy beside a periodic side may lie beyond it, by as much as the dummy is deep.
+double Neighbourhood::reach_beyond_sides(const DummyParticles& dummies) const {
+    const auto& depths = dummies.depth;
+    return reach() + (wall_points_ && !depths.empty() ? *std::max_element(depths.begin(), depths.end()) : 0);
+}
+
+// Wide cells make long runs of particles. Particles sorted by the search's rows are found in order.
+Vector Neighbourhood::cell() const {
+    return {cell_size(2 * reach(), domain_.size().x(), domain_.periodic[0]),
+            cell_size(CellGrid::row_height(reach()), domain_.size().y(), domain_.periodic[1])};
+}
+
+void Neighbourhood::make_lists(const Particles& particles) {
+    const DummyParticles& dummies = particles.dummies;
+    normal_x_ = dummies.normal_x;
+    normal_y_ = dummies.normal_y;
+    list_time_ = particles.time;
+    watch_.start(particles, periodic_.x(), periodic_.y(), domain_, cell());
     fluid_list_.build(periodic_.x(), periodic_.y(), periodic_.all_rows(), 0, periodic_.fluid_count(),
-                      periodic_.padding(), support_ + skin_, cell.y());
+                      periodic_.padding(), support_ + skin_, cell().y());
     if (walls_) {
-        build_dummy_list(particles.dummies);
+        build_dummy_list(dummies);
     }
     if (!particles.discs.empty()) {
         disc_list_.build(periodic_.x(), periodic_.y(), periodic_.fluid_rows(),
-                         periodic_.fluid_count() + particles.dummies.first_of_discs,
-                         periodic_.particle_count(), periodic_.padding(), support_ + skin_);
+                         periodic_.fluid_count() + dummies.first_of_discs, periodic_.particle_count(),
+                         periodic_.padding(), support_ + skin_);
     }
-    ++rebuilds_;
+}
+
+ListOrigin Neighbourhood::origin() const {
+    const auto count = static_cast<std::ptrdiff_t>(periodic_.particle_count());
+    const auto x = periodic_.x().begin();
+    const auto y = periodic_.y().begin();
+    return {{x, x + count}, {y, y + count}, normal_x_, normal_y_, list_time_, rebuilds_};
+}
+
+void Neighbourhood::restore(const Particles& particles, const ListOrigin& origin) {
+    Particles then = particles;
+    const auto fluid = static_cast<std::ptrdiff_t>(then.fluid.size());
+    then.fluid.x.assign(origin.x.begin(), origin.x.begin() + fluid);
+    then.fluid.y.assign(origin.y.begin(), origin.y.begin() + fluid);
+    then.dummies.x.assign(origin.x.begin() + fluid, origin.x.end());
+    then.dummies.y.assign(origin.y.begin() + fluid, origin.y.end());
+    then.dummies.normal_x = origin.normal_x;
+    then.dummies.normal_y = origin.normal_y;
+    then.time = origin.time;
+    periodic_.take(then, domain_, reach_beyond_sides(then.dummies));
+    make_lists(then);
+    rebuilds_ = origin.rebuilds;
 }
 
 // A fit asks for the fluid around the wall point of a dummy, a mean for that around the dummy.

@@ -17,6 +17,10 @@ class Neighbourhood {
     // when a particle has left its neighbours behind.
     void refresh(Particles& particles);
 
+    // See Interactions. Wrapping and sorting are not repeated: particles sit beside a side by rounding.
+    [[nodiscard]] ListOrigin origin() const;
+    void restore(const Particles& particles, const ListOrigin& origin);
+
     [[nodiscard]] const PeriodicRows& periodic() const { return periodic_; }
     [[nodiscard]] const NeighbourList& of_fluid() const { return fluid_list_; }
     [[nodiscard]] const NeighbourList& of_dummies() const { return dummy_list_; }
@@ -27,6 +31,10 @@ class Neighbourhood {
 
   private:
     void refuse_flight(const Particles& particles, double displacement) const;
+    [[nodiscard]] double reach() const;
+    [[nodiscard]] double reach_beyond_sides(const DummyParticles& dummies) const;
+    [[nodiscard]] Vector cell() const;
+    void make_lists(const Particles& particles);
     void build_dummy_list(const DummyParticles& dummies);
 
     Domain domain_;
@@ -35,6 +43,8 @@ class Neighbourhood {
     PeriodicRows periodic_;
     DisplacementWatch watch_;
     NeighbourList fluid_list_, dummy_list_, disc_list_;
+    std::vector<double> normal_x_, normal_y_; // of the dummies when the lists were made
+    double list_time_ = 0;                    // s, likewise
     long rebuilds_ = 0;
 };
 

@@ -59,6 +59,12 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
 
     void refresh_neighbours(Particles& particles) override { neighbourhood_.refresh(particles); }
 
+    [[nodiscard]] ListOrigin list_origin() const override { return neighbourhood_.origin(); }
+
+    void restore_lists(const Particles& particles, const ListOrigin& origin) override {
+        neighbourhood_.restore(particles, origin);
+    }
+
     void compute_density_rate(Particles& particles) override {
         rows_.fill_rate(particles);
         if (terms_.gradient_correction) {

@@ -143,6 +143,10 @@ void sort(Particles& particles, double strip_height) {
 void PeriodicRows::rebuild(Particles& particles, const Domain& domain, double strip_height, double reach) {
     wrap(particles, domain);
     sort(particles, strip_height);
+    take(particles, domain, reach);
+}
+
+void PeriodicRows::take(const Particles& particles, const Domain& domain, double reach) {
     fluid_count_ = particles.fluid.size();
     particle_count_ = fluid_count_ + particles.dummies.size();
     x_ = particles.fluid.x;

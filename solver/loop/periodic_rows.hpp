@@ -22,6 +22,8 @@ class PeriodicRows {
     // from y = 0, then by x) so that neighbours are near in memory, and finds the copies within `reach` of a
     // periodic side, m.
     void rebuild(Particles& particles, const Domain& domain, double strip_height, double reach);
+    // The same for particles that are wrapped and sorted.
+    void take(const Particles& particles, const Domain& domain, double reach);
 
     [[nodiscard]] std::size_t fluid_count() const { return fluid_count_; }
     [[nodiscard]] std::size_t particle_count() const { return particle_count_; }

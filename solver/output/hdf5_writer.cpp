@@ -40,10 +40,13 @@ template <class Result> Result Hdf5Writer::require(Result result) const {
     return result;
 }
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& path) : name_(path.string()) {
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, std::size_t user_block) : name_(path.string()) {
+    const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    require(H5Pset_userblock(creation.get(), user_block));
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     require(H5Pset_file_locking(access.get(), false, false)); // would clash with the caller's lock
-    file_ = require(Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose));
+    file_ =
+        require(Hdf5Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose));
 }
 
 // HDF5 1.10 crashes when it closes a file, or itself at exit, while something cannot be written (disk full).
@@ -166,6 +169,43 @@ void Hdf5Writer::append(const std::string& path, std::string_view unit, std::spa
 std::size_t Hdf5Writer::rows(const std::string& path) const {
     const auto found = tables_.find(path);
     return found == tables_.end() ? 0 : found->second.rows;
+}
+
+bool Hdf5Writer::has(const std::string& path) const {
+    return require(H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT)) > 0;
+}
+
+void Hdf5Writer::remove(const std::string& path) {
+    require(H5Ldelete(file_.get(), path.c_str(), H5P_DEFAULT));
+}
+
+void Hdf5Writer::copy(hid_t file, const std::string& from, const std::string& to) {
+    require(H5Ocopy(file, from.c_str(), file_.get(), to.c_str(), H5P_DEFAULT, H5P_DEFAULT));
+    std::vector<std::string> names;
+    const auto note = [](hid_t /*group*/, const char* name, const H5L_info_t* /*link*/, void* to_names) {
+        static_cast<std::vector<std::string>*>(to_names)->emplace_back(name);
+        return herr_t{0};
+    };
+    const Hdf5Handle group = require(Hdf5Handle(H5Gopen2(file_.get(), to.c_str(), H5P_DEFAULT), H5Gclose));
+    require(H5Lvisit(group.get(), H5_INDEX_NAME, H5_ITER_NATIVE, note, &names));
+    for (const std::string& name : names)
+        adopt_table(fmt::format("{}/{}", to, name));
+}
+
+// Only tables can grow.
+void Hdf5Writer::adopt_table(const std::string& path) {
+    const Hdf5Handle object = require(Hdf5Handle(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), H5Oclose));
+    if (H5Iget_type(object.get()) != H5I_DATASET)
+        return;
+    const Hdf5Handle space = require(Hdf5Handle(H5Dget_space(object.get()), H5Sclose));
+    Sizes row(static_cast<std::size_t>(require(H5Sget_simple_extent_ndims(space.get()))));
+    Sizes largest(row.size());
+    require(H5Sget_simple_extent_dims(space.get(), row.data(), largest.data()));
+    if (largest.front() != H5S_UNLIMITED)
+        return;
+    const hsize_t rows = std::exchange(row.front(), 1);
+    Hdf5Handle dataset = require(Hdf5Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose));
+    tables_.emplace(path, Table{std::move(dataset), std::move(row), rows});
 }
 
 void Hdf5Writer::flush() {

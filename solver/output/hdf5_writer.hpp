@@ -15,8 +15,9 @@ namespace slurry {
 // are absolute within the file; groups on the way to a dataset are made when missing.
 class Hdf5Writer {
   public:
-    // Empties the file, which the caller has locked against other processes.
-    explicit Hdf5Writer(const std::filesystem::path& path);
+    // Empties the file, which the caller has locked against other processes. HDF5 leaves the first
+    // `user_block` bytes alone: none, or a power of 2 from 512.
+    explicit Hdf5Writer(const std::filesystem::path& path, std::size_t user_block = 0);
     ~Hdf5Writer();
     Hdf5Writer(const Hdf5Writer&) = delete;
     Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -38,6 +39,12 @@ class Hdf5Writer {
     // Rows of a table so far.
     [[nodiscard]] std::size_t rows(const std::string& path) const;
 
+    [[nodiscard]] bool has(const std::string& path) const;
+    void remove(const std::string& path);
+    // Copies a group with all that it holds from another file. Its tables can be appended to.
+    void copy(hid_t file, const std::string& from, const std::string& to);
+    [[nodiscard]] hid_t file() const { return file_.get(); }
+
     // Hands everything to the system, so that a full disk shows now.
     void flush();
     // Nothing more can be written afterwards.
@@ -58,6 +65,7 @@ class Hdf5Writer {
                             const Hdf5Handle& space, hid_t layout);
     void append(const std::string& path, std::string_view unit, const Sizes& row, const double* values);
     Table& table(const std::string& path, std::string_view unit, const Sizes& row);
+    void adopt_table(const std::string& path);
 
     Hdf5Silence silence_;
     std::string name_;

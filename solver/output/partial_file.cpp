@@ -18,6 +18,17 @@ namespace {
     throw OutputError(fmt::format("{}: cannot {}: {}", path.string(), attempt, std::strerror(errno)));
 }
 
+// A name is safe against a crash of the machine only when its folder is. Not every file system can do that.
+void synchronise_folder(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0)
+        return; // a folder may be writable, yet not readable
+    const bool failed = ::fsync(descriptor) != 0 && errno == EIO;
+    ::close(descriptor);
+    if (failed)
+        fail(folder, "write to the disk");
+}
+
 } // namespace
 
 PartialFile::PartialFile(std::filesystem::path target) : target_(std::move(target)), path_(target_) {
@@ -60,10 +71,11 @@ void PartialFile::synchronise() {
         fail(path_, "write to the disk");
 }
 
-void PartialFile::commit() {
-    if (::rename(path_.c_str(), target_.c_str()) != 0)
-        fail(target_, "give the file its name");
+void PartialFile::commit_as(const std::filesystem::path& target) {
+    if (::rename(path_.c_str(), target.c_str()) != 0)
+        fail(target, "give the file its name");
     ::close(std::exchange(descriptor_, -1));
+    synchronise_folder(target.parent_path());
 }
 
 } // namespace slurry

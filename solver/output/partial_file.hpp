@@ -19,8 +19,10 @@ class PartialFile {
     void write(std::string_view text);
     // To the disk; errors that the system kept for later (a full disk, a quota) come to light here.
     void synchronise();
-    // Gives the file its name, replacing an older one.
-    void commit();
+    // Gives the file its name, replacing an older one; afterwards the name is on the disk, too.
+    void commit() { commit_as(target_); }
+    // The same with another name in the same folder.
+    void commit_as(const std::filesystem::path& target);
 
   private:
     std::filesystem::path target_;

@@ -39,6 +39,12 @@ void PhaseClock::switch_to(std::size_t phase) {
     current_ = phase;
 }
 
+void PhaseClock::add(const std::vector<Phase>& phases, double elapsed) {
+    for (const auto& [name, seconds] : phases)
+        phases_[find(name)].seconds += seconds;
+    start_ -= elapsed;
+}
+
 std::string PhaseClock::summary(std::int64_t particles, std::int64_t steps) const {
     const double seconds = elapsed();
     const double particle_steps = static_cast<double>(particles) * static_cast<double>(steps);

@@ -39,6 +39,8 @@ class PhaseClock {
 
     // In the order of first use.
     [[nodiscard]] const std::vector<Phase>& phases() const { return phases_; }
+    // Adds what an earlier part of the run took: its phases, and elapsed() as a whole, s.
+    void add(const std::vector<Phase>& phases, double elapsed);
     // Since construction, s.
     [[nodiscard]] double elapsed() const { return now_() - start_; }
     // The closing lines of a run: particle-steps per second and each phase's share of elapsed().

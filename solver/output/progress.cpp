@@ -33,9 +33,10 @@ ProgressStyle progress_style(bool quiet, int file_descriptor) {
     return ::isatty(file_descriptor) == 1 ? ProgressStyle::bar : ProgressStyle::lines;
 }
 
-Progress::Progress(std::ostream& stream, ProgressStyle style, double end_time, SecondsSource now)
-    : stream_(stream), style_(style), end_time_(end_time), now_(std::move(now)), start_(now_()),
-      last_report_(start_) {}
+Progress::Progress(std::ostream& stream, ProgressStyle style, double end_time, double start_time,
+                   SecondsSource now)
+    : stream_(stream), style_(style), end_time_(end_time), start_time_(start_time), now_(std::move(now)),
+      start_(now_()), last_report_(start_) {}
 
 Progress::~Progress() {
     if (bar_drawn_)
@@ -53,8 +54,9 @@ void Progress::update(double time, std::int64_t steps) {
     last_report_ = now;
     const double share = std::clamp(time / end_time_, 0.0, 1.0);
     const double elapsed = now - start_;
+    const double since_start = (time - start_time_) / end_time_;
     const std::string remaining =
-        share > 0 ? duration(elapsed * (1 - share) / share) + " left" : "just begun";
+        since_start > 0 ? duration(elapsed * (1 - share) / since_start) + " left" : "just begun";
     const std::string state =
         fmt::format("{:5.1f} %, t = {:.3g} s, step {}, {}", 100 * share, time, steps, remaining);
     if (bar) {

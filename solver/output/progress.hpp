@@ -18,8 +18,9 @@ ProgressStyle progress_style(bool quiet, int file_descriptor);
 
 class Progress {
   public:
-    // end_time: simulated time at the end of the run, s. The stream must outlive this.
-    Progress(std::ostream& stream, ProgressStyle style, double end_time, SecondsSource now = steady_seconds);
+    // Simulated time at the end of the run and now, s. The stream must outlive this.
+    Progress(std::ostream& stream, ProgressStyle style, double end_time, double start_time = 0,
+             SecondsSource now = steady_seconds);
     // Ends the line of a bar, so that what follows begins on its own.
     ~Progress();
     Progress(const Progress&) = delete;
@@ -31,7 +32,7 @@ class Progress {
   private:
     std::ostream& stream_;
     ProgressStyle style_;
-    double end_time_;
+    double end_time_, start_time_;
     SecondsSource now_;
     double start_;
     double last_report_;

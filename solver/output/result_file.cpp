@@ -1,5 +1,6 @@
 #include "solver/output/result_file.hpp"
 
+#include "solver/output/hdf5_reader.hpp"
 #include "solver/output/hdf5_writer.hpp"
 #include "solver/output/partial_file.hpp"
 #include "solver/output/xdmf.hpp"
@@ -8,12 +9,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 namespace slurry {
 namespace {
+
+// All that a run records; /discs only where there are discs.
+constexpr std::array groups{"/run", "/series", "/probes", "/discs", "/snapshots"};
+
+std::string snapshot_group(std::size_t index) {
+    return fmt::format("/snapshots/{:04}", index);
+}
 
 std::filesystem::path result_path(const std::filesystem::path& folder, bool overwrite) {
     std::error_code error;
@@ -48,6 +57,7 @@ struct ResultFile::Implementation {
             return known.name == probe && std::holds_alternative<PointProbe>(known.kind);
         });
     }
+    std::filesystem::path finish_as(const std::string& stem);
     void require_as_many_rows_as_times(const std::string& group, const std::string& path) const {
         if (writer.rows(path) != writer.rows(group + "/time"))
             throw std::logic_error(path + ": needs one row for each time");
@@ -122,7 +132,7 @@ void ResultFile::name_discs(std::span<const std::string> names) {
 void ResultFile::add_snapshot(const Snapshot& snapshot) {
     Hdf5Writer& writer = implementation_->writer;
     const std::size_t particles = snapshot.wall.size();
-    const std::string group = fmt::format("/snapshots/{:04}", implementation_->snapshots.size());
+    const std::string group = snapshot_group(implementation_->snapshots.size());
     const auto add = [&](std::string_view quantity, std::string_view unit, auto values) {
         const std::string path = fmt::format("{}/{}", group, quantity);
         if (values.size() != particles)
@@ -149,17 +159,53 @@ void ResultFile::set_attribute(std::string_view name, double value) {
     implementation_->writer.set_attribute("/run", std::string(name), value);
 }
 
-std::filesystem::path ResultFile::finish() {
-    implementation_->writer.close();
-    PartialFile& result = implementation_->partial;
-    result.synchronise();
-    std::filesystem::path xdmf = result.target();
+void ResultFile::copy_to(Hdf5Writer& checkpoint) {
+    Hdf5Writer& writer = implementation_->writer;
+    writer.flush();
+    checkpoint.make_group("/result");
+    for (const std::string group : groups) {
+        if (writer.has(group))
+            checkpoint.copy(writer.file(), group, "/result" + group);
+    }
+}
+
+void ResultFile::restore(const Hdf5Reader& checkpoint) {
+    Hdf5Writer& writer = implementation_->writer;
+    for (const std::string group : groups) {
+        if (writer.has(group))
+            writer.remove(group);
+        if (checkpoint.has("/result" + group))
+            writer.copy(checkpoint.file(), "/result" + group, group);
+    }
+    auto& snapshots = implementation_->snapshots;
+    for (std::string group; checkpoint.has("/result" + (group = snapshot_group(snapshots.size())));)
+        snapshots.push_back({group, checkpoint.number("/result" + group, "time"),
+                             checkpoint.size("/result" + group + "/wall")});
+}
+
+std::filesystem::path ResultFile::Implementation::finish_as(const std::string& stem) {
+    writer.close();
+    partial.synchronise();
+    const std::filesystem::path target = partial.target().parent_path() / (stem + ".h5");
+    std::filesystem::path xdmf = target;
     PartialFile description(xdmf.replace_extension(".xdmf"));
-    description.write(xdmf_document(implementation_->title, "result.h5", implementation_->snapshots));
+    description.write(xdmf_document(title, target.filename().string(), snapshots));
     description.synchronise();
-    result.commit();
+    partial.commit_as(target);
     description.commit();
-    return result.target();
+    return target;
+}
+
+std::filesystem::path ResultFile::finish() {
+    std::filesystem::path result = implementation_->finish_as("result");
+    std::error_code error;
+    for (const char* outdated : {"failed.h5", "failed.xdmf"})
+        std::filesystem::remove(result.parent_path() / outdated, error);
+    return result;
+}
+
+std::filesystem::path ResultFile::set_aside() {
+    return implementation_->finish_as("failed");
 }
 
 } // namespace slurry

@@ -11,6 +11,9 @@
 
 namespace slurry {
 
+class Hdf5Reader;
+class Hdf5Writer;
+
 // The output could not be written; what() is one line that names the file and the reason.
 class OutputError : public std::runtime_error {
   public:
@@ -60,8 +63,14 @@ class ResultFile {
     // A number about the run: attribute of /run (fluid_particles, steps, wall_seconds, threads, ...).
     void set_attribute(std::string_view name, double value);
 
-    // Syncs, renames to result.h5, writes result.xdmf. Returns the path.
+    // Copies all that was recorded into the group /result of a checkpoint, and goes on from there.
+    void copy_to(Hdf5Writer& checkpoint);
+    void restore(const Hdf5Reader& checkpoint);
+
+    // Syncs, renames to result.h5, writes result.xdmf. Returns the path. What an earlier run set aside goes.
     std::filesystem::path finish();
+    // The same as failed.h5 and failed.xdmf, beside an earlier result: for a run that went wrong.
+    std::filesystem::path set_aside();
 
   private:
     struct Implementation;

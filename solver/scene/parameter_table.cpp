@@ -254,6 +254,9 @@ const std::vector<Parameter> parameter_table{
      "of wall and grid probes: evenly spaced times up to the end"},
     {"output", "", "snapshot_times", member(&Output::snapshot_times), "s", std::vector<double>{}, at_least(0),
      "ascending, at which all particles are written; the end is always added"},
+    {"output", "", "checkpoint_interval", member(&Output::checkpoint_interval), "s", 600.0, at_least(0),
+     "wall time between checkpoints, from which a run that was ended can be resumed; 0: only when it is "
+     "interrupted"},
 };
 
 } // namespace

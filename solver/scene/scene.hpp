@@ -188,6 +188,7 @@ struct Output {
         200;                // energies, momenta and point probes: evenly spaced times, start and end included
     int probe_samples = 10; // wall and grid probes: evenly spaced times up to the end
     std::vector<double> snapshot_times; // all particles; the end is always added
+    double checkpoint_interval = 600;   // s of wall time; 0: only when the run is interrupted
 };
 
 struct Scene {

@@ -16,6 +16,7 @@ class Recorder {
 
     // To be called once before the first step (step = 0) and after each: records what is due.
     void record(const Particles& particles, long step);
+    void record_snapshot(const Particles& particles);
 
   private:
     struct WallSamples {
@@ -28,7 +29,6 @@ class Recorder {
     void record_series(const Particles& particles);
     void record_discs(const Particles& particles);
     void record_walls_and_grids(const Particles& particles);
-    void record_snapshot(const Particles& particles);
 
     const Scene& scene_;
     const Region& region_;

@@ -8,6 +8,8 @@
 #include "solver/particles/arrangement.hpp"
 #include "solver/scene/refusal.hpp"
 #include "solver/terms/selection.hpp"
+#include "solver/time/checkpoint_folder.hpp"
+#include "solver/time/interruption.hpp"
 #include "solver/time/recorder.hpp"
 #include "solver/time/time_step.hpp"
 #include "solver/time/velocity_verlet.hpp"
@@ -17,7 +19,6 @@
 #include <fmt/ostream.h>
 #include <omp.h>
 #include <unistd.h>
-#include <version.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -105,45 +106,167 @@ void print_summary(const RunSummary& summary, const Particles& particles, const 
                clock.summary(static_cast<std::int64_t>(count), summary.steps));
 }
 
+class Run {
+  public:
+    Run(const Scene& scene, const RunOptions& options)
+        : scene_(scene), options_(options), region_(scene),
+          file_(options.folder, scene, program_version(), options.overwrite),
+          particles_(timed_start(scene, region_, clock_)),
+          threads_(useful_threads(options.threads, particles_)), sums_(make_interactions(scene)),
+          contacts_(scene, region_),
+          steps_(step_count(scene, largest_time_step(scene, particles_.discs,
+                                                     contacts_.highest_frequency(particles_.discs)))),
+          time_step_(scene.output.end_time / static_cast<double>(steps_)),
+          check_interval_(std::max(1L, steps_ / checks_per_run)), forces_{*sums_, contacts_, scene.fluid,
+                                                                          scene.numerics.sound_speed},
+          recorder_(scene, region_, file_, steps_, time_step_),
+          checkpoints_(options.folder, scene.output.checkpoint_interval, options.resume_from),
+          state_{step_, particles_, *sums_, contacts_, file_, clock_} {
+        omp_set_num_threads(threads_);
+        if (checkpoints_.has_foreign()) {
+            warn(fmt::format("{}: holds the checkpoint of an interrupted run, which this run will replace; "
+                             "slurry run --resume goes on with it",
+                             options.folder.string()));
+        }
+    }
+
+    RunSummary operator()() {
+        try {
+            simulate();
+        } catch (const RunError& error) {
+            throw RunError(error.what() + set_aside());
+        }
+        write_attributes();
+        RunSummary summary{file_.finish(), steps_};
+        checkpoints_.remove();
+        if (!options_.quiet) {
+            print_summary(summary, particles_, clock_);
+        }
+        return summary;
+    }
+
+  private:
+    static void warn(const std::string& text) { std::cerr << "warning: " << text << '\n'; }
+
+    void simulate() {
+        begin();
+        Progress progress(std::cout, progress_style(options_.quiet, STDOUT_FILENO), scene_.output.end_time,
+                          particles_.time);
+        while (step_ < steps_) {
+            take_step();
+            const PhaseClock::Scope scope(clock_, "output and checks");
+            if (step_ % check_interval_ == 0 || step_ == steps_) {
+                check();
+            }
+            recorder_.record(particles_, step_);
+            progress.update(particles_.time, step_);
+            if (step_ < steps_) {
+                stop_if_interrupted();
+                keep_checkpoint_if_due();
+            }
+        }
+    }
+
+    void begin() {
+        if (options_.resume_from.empty()) {
+            prepare_first_step(particles_, forces_, clock_);
+            recorder_.record(particles_, 0);
+            return;
+        }
+        read_checkpoint(options_.resume_from, identity_, state_);
+        if (step_ >= steps_) {
+            throw CheckpointError(fmt::format("{}: is of step {}, and the run has {}",
+                                              options_.resume_from.string(), step_, steps_));
+        }
+        if (!options_.quiet) {
+            fmt::print(std::cout, "resumed at step {} of {}\n", step_, steps_);
+        }
+    }
+
+    void take_step() {
+        try {
+            advance(particles_, forces_, time_step_, clock_);
+        } catch (const RunError& error) {
+            throw RunError(fmt::format("step {}, {}", step_ + 1, error.what()));
+        }
+        ++step_;
+    }
+
+    void write_attributes() {
+        write_disc_attributes(file_, particles_, contacts_);
+        write_run_attributes(file_, particles_, step_, time_step_, threads_, clock_,
+                             sums_->list_statistics(particles_));
+    }
+
+    void check() const {
+        check_particles(particles_, region_, scene_.fluid.density, scene_.numerics.particle_spacing, step_);
+    }
+
+    void stop_if_interrupted() {
+        if (const char* signal = Interruption::signal_name()) {
+            checkpoints_.write(identity_, state_, scene_.path);
+            throw RunInterrupted(fmt::format(
+                "ended by {} after step {} of {}, time {:.6g} s; to go on: slurry run --resume {}", signal,
+                step_, steps_, particles_.time, options_.folder.string()));
+        }
+    }
+
+    // A state that the watchdog will not let pass is no good to go on from, and a checkpoint that cannot be
+    // written no reason to end a run that may come to its end without.
+    void keep_checkpoint_if_due() {
+        if (!checkpoints_.due()) {
+            return;
+        }
+        try {
+            check();
+            checkpoints_.write(identity_, state_, scene_.path);
+        } catch (const OutputError& error) {
+            warn(fmt::format("no checkpoint at step {}: {}", step_, error.what()));
+        } catch (const RunError&) { // whether a run goes wrong does not depend on when checkpoints are due
+            return;
+        }
+    }
+
+    // Where the state that went wrong is, and the last good one.
+    std::string set_aside() {
+        std::string where;
+        try {
+            recorder_.record_snapshot(particles_);
+            write_attributes();
+            where = fmt::format("; its state is in {}", file_.set_aside().string());
+        } catch (const OutputError& error) {
+            where = fmt::format("; its state is lost: {}", error.what());
+        }
+        return checkpoints_.newest().empty()
+                   ? where
+                   : fmt::format("{}, the last good one in {}", where, checkpoints_.newest().string());
+    }
+
+    const Interruption interruption_;
+    PhaseClock clock_;
+    const Scene& scene_;
+    const RunOptions& options_;
+    const Region region_;
+    ResultFile file_;
+    Particles particles_;
+    const int threads_;
+    const std::unique_ptr<Interactions> sums_;
+    DiscContacts contacts_;
+    const long steps_;
+    const double time_step_;
+    const long check_interval_;
+    Forces forces_;
+    Recorder recorder_;
+    CheckpointFolder checkpoints_;
+    const RunIdentity identity_ = run_identity(scene_);
+    long step_ = 0;
+    const RunState state_;
+};
+
 } // namespace
 
 RunSummary run_scene(const Scene& scene, const RunOptions& options) {
-    PhaseClock clock;
-    const Region region(scene);
-    ResultFile file(options.folder, scene, SLURRY_VERSION, options.overwrite);
-    Particles particles = timed_start(scene, region, clock);
-    const int threads = useful_threads(options.threads, particles);
-    omp_set_num_threads(threads);
-    const auto sums = make_interactions(scene);
-    DiscContacts contacts(scene, region);
-    const long steps = step_count(
-        scene, largest_time_step(scene, particles.discs, contacts.highest_frequency(particles.discs)));
-    const double time_step = scene.output.end_time / static_cast<double>(steps);
-    Forces forces{*sums, contacts, scene.fluid, scene.numerics.sound_speed};
-    const long check_interval = std::max(1L, steps / checks_per_run);
-    Recorder recorder(scene, region, file, steps, time_step);
-    {
-        Progress progress(std::cout, progress_style(options.quiet, STDOUT_FILENO), scene.output.end_time);
-        prepare_first_step(particles, forces, clock);
-        recorder.record(particles, 0);
-        for (long step = 1; step <= steps; ++step) {
-            advance(particles, forces, time_step, clock);
-            const PhaseClock::Scope scope(clock, "output and checks");
-            if (step % check_interval == 0 || step == steps) {
-                check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing,
-                                step);
-            }
-            recorder.record(particles, step);
-            progress.update(particles.time, step);
-        }
-    }
-    write_disc_attributes(file, particles, contacts);
-    write_run_attributes(file, particles, steps, time_step, threads, clock, sums->list_statistics(particles));
-    RunSummary summary{file.finish(), steps};
-    if (!options.quiet) {
-        print_summary(summary, particles, clock);
-    }
-    return summary;
+    return Run(scene, options)();
 }
 
 std::string describe_scene(const Scene& scene) {

@@ -12,6 +12,7 @@ struct RunOptions {
     int threads = 1;
     bool quiet = false;
     bool overwrite = true;
+    std::filesystem::path resume_from; // a checkpoint in the folder; empty: from the start
 };
 
 struct RunSummary {
@@ -19,8 +20,8 @@ struct RunSummary {
     long steps = 0;
 };
 
-// Runs the scene and writes result.h5 and result.xdmf into the folder. Throws GeometryError, OutputError,
-// RunError.
+// Runs the scene and writes result.h5 and result.xdmf into the folder; a state that goes wrong into
+// failed.h5. Throws GeometryError, OutputError, CheckpointError, RunError, RunInterrupted.
 RunSummary run_scene(const Scene& scene, const RunOptions& options);
 
 // What `slurry info` prints: particles, steps, and which terms run and why. Throws GeometryError.

@@ -15,7 +15,7 @@ std::string report(ProgressStyle style, double seconds) {
     std::ostringstream stream;
     double now = 0;
     {
-        Progress progress(stream, style, 2e-3, [&] { return now; });
+        Progress progress(stream, style, 2e-3, 0, [&] { return now; });
         for (int step = 1; step <= 1000; ++step) {
             now = seconds * step / 1000;
             progress.update(2e-3 * step / 1000, step);
@@ -50,6 +50,15 @@ TEST(Progress, BarIsRedrawnInPlaceAndEndsFull) {
 
 TEST(Progress, LongTimesReadInHours) {
     EXPECT_NE(report(ProgressStyle::lines, 10 * 3600).find("5 h 00 min left"), std::string::npos);
+}
+
+TEST(Progress, AResumedRunIsEstimatedByItsOwnPart) {
+    std::ostringstream stream;
+    double now = 0;
+    Progress progress(stream, ProgressStyle::lines, 1, 0.5, [&] { return now; });
+    now = 20;
+    progress.update(0.75, 750);
+    EXPECT_EQ(stream.str(), " 75.0 %, t = 0.75 s, step 750, 20 s left\n");
 }
 
 TEST(Progress, StyleSuitsTheOpenFile) {

@@ -1,0 +1,46 @@
+#pragma once
+// Reading a checkpoint: nothing in the file decides how much memory is taken.
+#include "solver/output/hdf5_handle.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace slurry {
+
+// A checkpoint that a run cannot go on from; what() is one line that names the file and the reason.
+class CheckpointError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+// Members throw CheckpointError. Paths are absolute within the file.
+class Hdf5Reader {
+  public:
+    explicit Hdf5Reader(const std::filesystem::path& path);
+
+    [[nodiscard]] bool has(const std::string& path) const;
+    // Attributes of a group or dataset.
+    [[nodiscard]] double number(const std::string& object, const std::string& name) const;
+    [[nodiscard]] std::string text(const std::string& object, const std::string& name) const;
+    // Numbers in a dataset.
+    [[nodiscard]] std::size_t size(const std::string& path) const;
+    // All of them, where there have to be `size`.
+    [[nodiscard]] std::vector<double> numbers(const std::string& path, std::size_t size) const;
+    [[nodiscard]] std::vector<int> integers(const std::string& path, std::size_t size) const;
+
+    [[nodiscard]] hid_t file() const { return file_.get(); }
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+  private:
+    template <class Result> Result require(Result result, const std::string& part) const;
+    [[nodiscard]] Hdf5Handle open_attribute(const std::string& object, const std::string& name) const;
+    template <class T> std::vector<T> values(const std::string& path, std::size_t size, hid_t type) const;
+
+    Hdf5Silence silence_;
+    std::string name_;
+    Hdf5Handle file_;
+};
+
+} // namespace slurry

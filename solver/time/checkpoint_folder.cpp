@@ -1,0 +1,97 @@
+#include "solver/time/checkpoint_folder.hpp"
+
+#include "solver/output/seal.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+#include <utility>
+
+namespace slurry {
+namespace {
+
+std::filesystem::path current_in(const std::filesystem::path& folder) {
+    return folder / "checkpoint.h5";
+}
+std::filesystem::path previous_in(const std::filesystem::path& folder) {
+    return folder / "checkpoint.previous.h5";
+}
+
+// Why there is no checkpoint of this name to go on from; empty if there is.
+std::string fault_of(const std::filesystem::path& path) {
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) {
+        return fmt::format("{}: is not there", path.string());
+    }
+    try {
+        const std::string fault = seal_fault(path);
+        return fault.empty() ? "" : fmt::format("{}: {}", path.string(), fault);
+    } catch (const OutputError& unreadable) {
+        return unreadable.what();
+    }
+}
+
+} // namespace
+
+FoundCheckpoint find_checkpoint(const std::filesystem::path& folder) {
+    const std::string fault = fault_of(current_in(folder));
+    if (fault.empty()) {
+        return {current_in(folder), ""};
+    }
+    const std::string fault_before = fault_of(previous_in(folder));
+    if (fault_before.empty()) {
+        return {previous_in(folder), fmt::format("{}; going on from the one before", fault)};
+    }
+    throw CheckpointError(fmt::format("{}: no checkpoint to resume from: {}; {}; start the run again without "
+                                      "--resume",
+                                      folder.string(), fault, fault_before));
+}
+
+CheckpointFolder::CheckpointFolder(const std::filesystem::path& folder, double interval,
+                                   const std::filesystem::path& resumed_from, SecondsSource now)
+    : current_(current_in(folder)), previous_(previous_in(folder)), newest_(resumed_from),
+      interval_(interval), now_(std::move(now)), last_(now_()) {}
+
+bool CheckpointFolder::due() {
+    if (interval_ <= 0) {
+        return false;
+    }
+    const double now = now_();
+    if (now - last_ < interval_) {
+        return false;
+    }
+    last_ = now;
+    return true;
+}
+
+// At every moment one of the two names is that of a good checkpoint, if ever one was: a bad one, or another
+// run's, never takes the place of `newest_`.
+void CheckpointFolder::write(const RunIdentity& identity, const RunState& state,
+                             const std::filesystem::path& scene) {
+    PartialFile file(current_);
+    write_checkpoint(file, identity, state, scene);
+    file.synchronise();
+    std::error_code error;
+    if (newest_ == current_) {
+        std::filesystem::rename(current_, previous_, error);
+    }
+    file.commit();
+    if (newest_.empty()) {
+        std::filesystem::remove(previous_, error);
+    }
+    newest_ = current_;
+}
+
+bool CheckpointFolder::has_foreign() const {
+    std::error_code error;
+    return newest_.empty() &&
+           (std::filesystem::exists(current_, error) || std::filesystem::exists(previous_, error));
+}
+
+void CheckpointFolder::remove() const {
+    std::error_code error;
+    std::filesystem::remove(current_, error);
+    std::filesystem::remove(previous_, error);
+}
+
+} // namespace slurry

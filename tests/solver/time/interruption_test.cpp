@@ -1,0 +1,48 @@
+#include "solver/time/interruption.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <string_view>
+
+namespace slurry {
+namespace {
+
+TEST(Interruption, NotesASignalInsteadOfEndingTheProcess) {
+    for (const int signal : {SIGTERM, SIGINT}) {
+        const Interruption interruption;
+        EXPECT_EQ(Interruption::signal_name(), nullptr);
+        std::raise(signal);
+        EXPECT_EQ(std::string_view(Interruption::signal_name()), signal == SIGTERM ? "SIGTERM" : "SIGINT");
+    }
+}
+
+TEST(Interruption, EndsTheProcessAtTheSecondOneAndWhenItIsGone) {
+    EXPECT_EXIT(
+        {
+            const Interruption interruption;
+            std::raise(SIGTERM);
+            std::raise(SIGTERM);
+        },
+        ::testing::KilledBySignal(SIGTERM), "");
+    EXPECT_EXIT(
+        {
+            { const Interruption interruption; }
+            std::raise(SIGINT);
+        },
+        ::testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(Interruption, LeavesASignalIgnoredThatWas) {
+    std::signal(SIGINT, SIG_IGN);
+    {
+        const Interruption interruption;
+        std::raise(SIGINT);
+        EXPECT_EQ(Interruption::signal_name(), nullptr);
+    }
+    std::raise(SIGINT);
+    std::signal(SIGINT, SIG_DFL);
+}
+
+} // namespace
+} // namespace slurry
