@@ -183,23 +183,30 @@ def of_lengths(load: Callable[..., Reference] = load_reference) -> dict[str, Any
             }
             changed = Variant(variant.name, {**variant.set, **longer})
             print(f"{name}: {variant.name}", file=sys.stderr, flush=True)
-            reference = load(
-                REFERENCE, case.scene_path, dict(changed.set), ROOT.parent / "build" / "reference"
-            )
-            points.append(exact(case, changed, reference))
+            try:
+                cache = ROOT.parent / "build" / "reference"
+                reference = load(REFERENCE, case.scene_path, dict(changed.set), cache)
+                points.append(exact(case, changed, reference))
+            except ReferenceError as error:
+                print(f"{name}: {variant.name}: {error}", file=sys.stderr)
         found[name] = fits(points)
     return _with_paper(found)
 
 
 def length_table(found: Mapping[str, Any]) -> str:
-    """Markdown: the pressure maxima of every length rule, and their fits."""
+    """Markdown: the pressure maxima of every length rule, and their fits; "refused" by the reference."""
     names = list(LENGTHS)
     lines = [f"| sigma (um) | gap (um) | {' | '.join(f'L = {name} (Pa)' for name in names)} |"]
     lines.append("|---" * (2 + len(names)) + "|")
-    for of in SWEEPS:
-        for rows in zip(*(found[name][of]["values"] for name in names), strict=True):
-            place = f"{MICRO * rows[0]['width_m']:.0f} | {MICRO * rows[0]['gap_m']:.0f}"
-            lines.append(f"| {place} | {' | '.join(format(row['pressure_Pa'], '.1f') for row in rows)} |")
+    values = {
+        (name, round(MICRO * row["width_m"]), round(MICRO * row["gap_m"])): f"{row['pressure_Pa']:.1f}"
+        for name in names
+        for of in SWEEPS
+        for row in found[name][of]["values"]
+    }
+    for width, gap in sorted({key[1:] for key in values}):
+        cells = [values.get((name, width, gap), "refused") for name in names]
+        lines.append(f"| {width} | {gap} | {' | '.join(cells)} |")
     slopes = [found[name]["width"]["slope"] for name in names]
     rates = [found[name]["gap"]["exponential"]["rate"] for name in names]
     lines.append(f"| slope (Pa/um) | 7 | {' | '.join(f'{slope:.2f}' for slope in slopes)} |")
