@@ -20,6 +20,7 @@ from reference.base import Array
 from reference.walls import Function
 
 CHUNK = 50_000  # points evaluated at once
+MOST_BEND = 1.0  # change of a wall's slope within an element of the coarsest mesh
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,12 @@ class Channel:
 
     def gap(self, x: Array) -> Array:
         return self.top(x) - self.bottom(x)
+
+    def bends(self, x: Array) -> Array:
+        """How fast the slopes of bottom and top change along x (2, n)."""
+        step = 1e-5 * self.length
+        slopes = (self.bottom_slope, self.top_slope)
+        return np.array([np.abs(slope(x + step) - slope(x - step)) / (2 * step) for slope in slopes])
 
 
 class ChannelMapping(Mapping):
@@ -77,11 +84,22 @@ def _joined(breaks: list[float], size: Function, refinement: int) -> Array:
 
 
 def mesh_lines(channel: Channel, per_gap: float, smallest: float, refinement: int) -> tuple[Array, Array]:
-    """Mesh lines x and eta with about `per_gap` elements a gap, shrinking to `smallest` gaps at the kinks."""
+    """Mesh lines x and eta with about `per_gap` elements a gap, shrinking to `smallest` gaps at the kinks.
+
+    Along x they shrink to the length over which a wall's slope changes by MOST_BEND as well, and across at a
+    wall where that is less than half an element.
+    """
     end = channel.start + channel.length
+    everywhere = np.linspace(channel.start, end, 4001)
+    radii = [
+        np.min(MOST_BEND / (bend * channel.gap(everywhere) + 1e-12)) for bend in channel.bends(everywhere)
+    ]
+    thinnest = [max(radius, smallest) if radius < 0.5 / per_gap else 1 / per_gap for radius in radii]
 
     def x_size(x: Array) -> Array:
-        size = np.minimum(channel.gap(x) / per_gap, channel.length / 8)
+        steepest = np.maximum(np.abs(channel.bottom_slope(x)), np.abs(channel.top_slope(x)))
+        size = np.minimum(channel.gap(x) / np.maximum(1, steepest) / per_gap, channel.length / 8)
+        size = np.minimum(size, np.maximum(MOST_BEND / (channel.bends(x).max(axis=0) + 1e-12), smallest))
         for kink, _ in channel.kinks:
             away = np.abs(x - kink)
             away = np.minimum(away, channel.length - away)
@@ -89,7 +107,7 @@ def mesh_lines(channel: Channel, per_gap: float, smallest: float, refinement: in
         return size
 
     def eta_size(eta: Array) -> Array:
-        size = np.full(np.shape(eta), 1 / per_gap)
+        size = np.minimum(1 / per_gap, np.minimum(1.5 * eta + thinnest[0], 1.5 * (1 - eta) + thinnest[1]))
         for _, top in channel.kinks:
             size = np.minimum(size, 1.5 * (1 - eta if top else eta) + smallest)
         return size

@@ -22,8 +22,9 @@ SHAPES = {  # wall shapes: parameter -> length of its vector (0 = a number)
     "arc": {"base_height": 0, "centre": 0, "radius": 0, "angle": 0},
     "sine": {"base_height": 0, "amplitude": 0, "centre": 0, "length": 0},
     "profile": {"base_height": 0},
+    "random": {"mean_height": 0, "rms_height": 0, "correlation_length": 0, "seed": 0},
 }
-SHAPE_DEFAULTS = {("cosine", "crest"): 0.0, ("profile", "base_height"): 0.0}
+SHAPE_DEFAULTS = {("cosine", "crest"): 0.0, ("profile", "base_height"): 0.0, ("random", "seed"): 1}
 
 
 @dataclass(frozen=True)

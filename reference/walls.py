@@ -4,7 +4,7 @@ A feature (gaussian, arc, sine) repeats with the period of the domain, its neare
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,7 @@ from reference.base import Array
 from reference.scene import Scene, WallScene
 
 Function = Callable[[Array], Array]
+LAST_POWER = 36  # harmonics of a random profile weaker than exp(-36) of the first are left out
 
 
 @dataclass(frozen=True)
@@ -132,6 +133,43 @@ def _profile(scene: Scene, wall: WallScene) -> Graph:
     return Graph(wall, spline, spline.derivative())
 
 
+def uniform_numbers(seed: int) -> Iterator[float]:
+    """SplitMix64 (steele2014), as the solver has it: numbers in [0, 1) of 53 bits."""
+    mask = (1 << 64) - 1
+    while True:
+        seed = (seed + 0x9E3779B97F4A7C15) & mask
+        mixed = ((seed ^ (seed >> 30)) * 0xBF58476D1CE4E5B9) & mask
+        mixed = ((mixed ^ (mixed >> 27)) * 0x94D049BB133111EB) & mask
+        yield math.ldexp((mixed ^ (mixed >> 31)) >> 11, -53)
+
+
+def _random(scene: Scene, wall: WallScene) -> Graph:
+    """Harmonics of the correlation rms_height^2 exp(-(r / correlation_length)^2) with random phases, scaled
+    to the RMS height over the period: solver/geometry/random_profile.hpp.
+    """
+    p = wall.parameters
+    if p["rms_height"] <= 0 or p["correlation_length"] <= 0:
+        raise scene.refuse(
+            f"walls.{wall.name}: rms_height and correlation_length of a random profile must be positive"
+        )
+    first = 2 * math.pi / scene.size[0]
+    power = (first * p["correlation_length"] / 2) ** 2
+    n = np.arange(1, max(1, int(math.sqrt(LAST_POWER / power))) + 1)
+    weight = np.exp(-power * (n**2 - 1))
+    amplitude = p["rms_height"] * np.sqrt(weight / (weight.sum() / 2))
+    numbers = uniform_numbers(int(p["seed"]))
+    phase = np.array([2 * math.pi * next(numbers) for _ in n])
+
+    def angle(x: Array) -> Array:
+        return first * np.multiply.outer(np.asarray(x, dtype=float) - scene.lower[0], n) + phase
+
+    return Graph(
+        wall,
+        lambda x: p["mean_height"] + np.cos(angle(x)) @ amplitude,
+        lambda x: -np.sin(angle(x)) @ (first * n * amplitude),
+    )
+
+
 SHAPES = {
     "line": _line,
     "cosine": _cosine,
@@ -139,6 +177,7 @@ SHAPES = {
     "arc": _arc,
     "sine": _sine,
     "profile": _profile,
+    "random": _random,
 }
 
 

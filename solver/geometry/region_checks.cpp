@@ -134,22 +134,20 @@ void check_gap_in_motion(const Wall& one, const Wall& other, double spacing) {
     require_gap(gap, spacing, fmt::format("the narrowest gap between walls {} as they move", names));
 }
 
-// Layers deeper than the radius of curvature run back on themselves: too few particles to represent the
-// curve.
-void check_curvature(const Wall& wall, const Numerics& numerics) {
-    const double layers = std::ceil(kernel_support * numerics.smoothing_ratio - 1e-9);
-    const double deepest = (layers - 0.5) * numerics.particle_spacing;
+// Where even the first layer of dummies is deeper than the radius of curvature, no layer knows of the curve.
+// Deeper ones may run back on themselves: they are cut there (solver/geometry/layers.cpp).
+void check_curvature(const Wall& wall, double spacing) {
     for (const Leaf& leaf : wall.curve().leaves()) {
         for (const Jet& jet : {leaf.first, leaf.last}) {
             const double bend =
                 -wall.side() * left_of(jet.first).dot(jet.second) / std::pow(jet.first.squaredNorm(), 1.5);
-            if (!(bend * deepest > 1))
+            if (!(bend * spacing / 2 > 1))
                 continue;
-            throw GeometryError(fmt::format(
-                "wall '{}' has a radius of curvature of {:.4g} m at {}, less than its dummies' depth of "
-                "{:.4g} m: use "
-                "a particle_spacing of at most {:.4g} m, or wall_dummies = \"lattice\"",
-                wall.name(), 1 / bend, place(jet.position), deepest, 1 / (bend * (layers - 0.5))));
+            throw GeometryError(
+                fmt::format("wall '{}' has a radius of curvature of {:.4g} m at {}, less than half a "
+                            "particle spacing: use a "
+                            "particle_spacing of at most {:.4g} m, or wall_dummies = \"lattice\"",
+                            wall.name(), 1 / bend, place(jet.position), 2 / bend));
         }
     }
 }
@@ -191,7 +189,7 @@ void check_region(const Region& region, const Numerics& numerics) {
             check_gap_in_motion(walls[i], walls[j], spacing);
     if (numerics.wall_dummies == DummyLayout::curve)
         for (const Wall& wall : walls)
-            check_curvature(wall, numerics);
+            check_curvature(wall, spacing);
 }
 
 } // namespace slurry

@@ -2,11 +2,12 @@
 
 #include "solver/geometry/geometry_error.hpp"
 #include "solver/geometry/numerical.hpp"
+#include "solver/geometry/periodic_pieces.hpp"
+#include "solver/geometry/random_profile.hpp"
 
 #include <cmath>
 #include <fmt/core.h>
 #include <numbers>
-#include <optional>
 
 namespace slurry {
 namespace {
@@ -66,8 +67,6 @@ Piece wave(double base, double amplitude, double wavenumber, double origin, doub
         },
         even_nodes(lower, upper, pi / (4 * wavenumber))};
 }
-
-using Pieces = std::vector<Piece>;
 
 Pieces pieces_of(const CosineShape& shape, const WallScene& wall, const Domain& domain) {
     require_positive(wall, "wavelength", shape.wavelength);
@@ -186,54 +185,30 @@ Pieces pieces_of(const ProfileShape& shape, const WallScene& wall, const Domain&
              nodes}};
 }
 
-// The two parts of a piece, left and right of x; a part may be missing.
-std::array<std::optional<Piece>, 2> split(const Piece& piece, double x, double slack) {
-    const auto beyond = [&](double parameter) { return piece.at(parameter).position.x() - x; };
-    if (beyond(piece.nodes.back()) <= slack)
-        return {piece, std::nullopt};
-    if (beyond(piece.nodes.front()) >= -slack)
-        return {std::nullopt, piece};
-    const double cut = find_root(beyond, piece.nodes.front(), piece.nodes.back());
-    const double tiny = rounding * (piece.nodes.back() - piece.nodes.front());
-    Piece left{piece.at, {}};
-    Piece right{piece.at, {cut}};
-    for (const double node : piece.nodes) {
-        if (node < cut - tiny)
-            left.nodes.push_back(node);
-        if (node > cut + tiny)
-            right.nodes.push_back(node);
-    }
-    left.nodes.push_back(cut);
-    return {left, right};
-}
-
-Piece shifted(const Piece& piece, double shift) {
-    return {[at = piece.at, shift](double parameter) {
-                Jet jet = at(parameter);
-                jet.position.x() += shift;
-                return jet;
-            },
-            piece.nodes};
-}
-
-// The same periodic curve with its first point at the domain's left side.
-Pieces from_the_left(const Pieces& pieces, const Domain& domain) {
+Pieces pieces_of(const RandomShape& shape, const WallScene& wall, const Domain& domain) {
+    constexpr double most_correlation_lengths = 200; // more would be slow to evaluate
     const double width = domain.size().x();
-    const double start = pieces.front().at(pieces.front().nodes.front()).position.x();
-    const double slack = rounding * width;
-    const bool starts_left = start < domain.lower.x();
-    const double cut = starts_left ? domain.lower.x() : domain.upper.x();
-    Pieces left;
-    Pieces right;
-    for (const Piece& piece : pieces) {
-        const auto parts = split(piece, cut, slack);
-        if (parts[0])
-            left.push_back(starts_left ? shifted(*parts[0], width) : *parts[0]);
-        if (parts[1])
-            right.push_back(starts_left ? *parts[1] : shifted(*parts[1], -width));
-    }
-    right.insert(right.end(), left.begin(), left.end());
-    return right;
+    require_positive(wall, "rms_height", shape.rms_height);
+    require_positive(wall, "correlation_length", shape.correlation_length);
+    if (shape.correlation_length * most_correlation_lengths < width)
+        refuse(wall,
+               fmt::format("correlation_length is {:g} m, but has to be at least 1 / {:g} of the domain's "
+                           "width, {:g} m",
+                           shape.correlation_length, most_correlation_lengths,
+                           width / most_correlation_lengths));
+    const double lower = domain.lower.x();
+    const auto graph = [lower, mean = shape.mean_height, waves = harmonics(shape, width)](double x) {
+        Jet jet{{x, mean}, {1, 0}, {0, 0}};
+        for (const Harmonic& wave : waves) {
+            const double phase = wave.wavenumber * (x - lower) + wave.phase;
+            const double cosine = wave.amplitude * std::cos(phase);
+            jet.position.y() += cosine;
+            jet.first.y() -= wave.wavenumber * wave.amplitude * std::sin(phase);
+            jet.second.y() -= wave.wavenumber * wave.wavenumber * cosine;
+        }
+        return jet;
+    };
+    return {{graph, even_nodes(lower, domain.upper.x(), std::min(shape.correlation_length, width) / 4)}};
 }
 
 Curve make_line(const LineShape& shape, const WallScene& wall, const Domain& domain) {
@@ -278,7 +253,7 @@ template <class Graph> Curve make_graph(const Graph& shape, const WallScene& wal
         refuse(wall,
                fmt::format("its heights at the two periodic sides, {:g} and {:g} m, have to be the same",
                            first.y(), last.y()));
-    return {from_the_left(pieces, domain), {domain.size().x(), 0}};
+    return {from_the_left(pieces, domain, rounding), {domain.size().x(), 0}};
 }
 
 } // namespace

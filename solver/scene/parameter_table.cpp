@@ -155,7 +155,7 @@ const std::vector<Parameter> parameter_table{
 
     {"walls", "", "name", member(&WallScene::name), "", required, identifier(), "unique"},
     {"walls", "", "shape", member(&WallScene::shape), "", required,
-     one_of({"line", "cosine", "gaussian", "arc", "sine", "profile"}), "of the curve"},
+     one_of({"line", "cosine", "gaussian", "arc", "sine", "profile", "random"}), "of the curve"},
     {"walls", "", "fluid_side", member(&WallScene::fluid_side), "", required,
      one_of({"above", "below", "left", "right"}), "of the curve; left and right for vertical lines only"},
     {"walls", "", "velocity", member(&WallScene::velocity), "m/s", origin, anything(), "translation [x, y]"},
@@ -193,6 +193,14 @@ const std::vector<Parameter> parameter_table{
      "CSV of two columns x, y in m, x ascending, # before a comment; relative to the scene's folder"},
     {"walls", "profile", "base_height", member(&ProfileShape::base_height), "m", 0.0, anything(),
      "added to the file's heights"},
+    {"walls", "random", "mean_height", member(&RandomShape::mean_height), "m", required, anything(),
+     "of the rough profile, which repeats with the domain's width"},
+    {"walls", "random", "rms_height", member(&RandomShape::rms_height), "m", required, positive(),
+     "root mean square of the heights about their mean"},
+    {"walls", "random", "correlation_length", member(&RandomShape::correlation_length), "m", required,
+     positive(), "where the correlation of the heights, exp(-(r / correlation_length)^2), has fallen to 1/e"},
+    {"walls", "random", "seed", member(&RandomShape::seed), "", std::int64_t{1}, at_least(0),
+     "of the random phases; the same profile on every machine"},
 
     {"discs", "", "name", member(&DiscScene::name), "", required, identifier(),
      "unique; discs at random places are name_1, name_2, ..."},

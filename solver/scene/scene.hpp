@@ -126,7 +126,12 @@ struct ProfileShape {           // y(x) through the two columns of a CSV file
     double base_height;         // added to the file's heights
     std::vector<Vector> points; // as read, x ascending
 };
-using Shape = std::variant<LineShape, CosineShape, GaussianShape, ArcShape, SineShape, ProfileShape>;
+struct RandomShape { // a rough profile about y = mean_height; solver/geometry/random_profile.hpp
+    double mean_height, rms_height, correlation_length;
+    std::uint64_t seed;
+};
+using Shape =
+    std::variant<LineShape, CosineShape, GaussianShape, ArcShape, SineShape, ProfileShape, RandomShape>;
 
 struct WallScene {
     std::string name;

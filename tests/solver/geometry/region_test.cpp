@@ -87,8 +87,6 @@ TEST(Region, LatticeDummiesContinueTheFluidsLattice) {
 TEST(Region, CurveDummiesNeverLieInTheFluid) {
     const double spacing = 0.02;
     for (const WallScene& wall : testing::every_shape()) {
-        if (wall.name == "gaussian")
-            continue;
         const bool floor = wall.fluid_side == FluidSide::above;
         const double other = floor ? 2 : -1;
         Scene scene = make_scene(make_domain({0, -1}, {2, 2}, true),

@@ -65,6 +65,7 @@ inline std::vector<WallScene> every_shape() {
         make_wall("half circle", ArcShape{0.5, 1, 0.3, std::numbers::pi, false}, FluidSide::above),
         make_wall("sine", SineShape{0.5, 0.15, 1.2, 0.8}, FluidSide::below),
         make_wall("profile", measured_profile(), FluidSide::above),
+        make_wall("random", RandomShape{0.4, 0.06, 0.3, 5}, FluidSide::above),
     };
 }
 

@@ -27,6 +27,8 @@ std::vector<Case> every_case() {
     for (const bool periodic : {true, false})
         for (const WallScene& wall : testing::every_shape())
             cases.push_back({wall, periodic});
+    // layers of depth 0.025, a tip of radius 0.009
+    cases.push_back({make_wall("tip", GaussianShape{0.1, 0.7, 1.3, 0.08}, FluidSide::above), true});
     cases.push_back({make_wall("slope", LineShape{{1.9, 0.3}, {0.1, 0.9}}, FluidSide::below), false});
     cases.push_back({make_wall("upright", LineShape{{0.5, 0.9}, {0.5, 0.1}}, FluidSide::left), false});
     return cases;
@@ -268,6 +270,9 @@ std::vector<BadWall> bad_walls() {
         {make_wall("w", ArcShape{0.3, 1, 0.2, 4, true}, FluidSide::above), true, "angle"},
         {make_wall("w", ArcShape{0.3, 0.1, 0.2, 3, true}, FluidSide::above), false, "reaches"},
         {make_wall("w", SineShape{0.3, 0.1, 1, 3}, FluidSide::above), true, "reaches"},
+        {make_wall("w", RandomShape{0.3, 0.1, 0, 1}, FluidSide::above), true, "correlation_length"},
+        {make_wall("w", RandomShape{0.3, 0.1, 0.009, 1}, FluidSide::above), true, "1 / 200"},
+        {make_wall("w", RandomShape{0.3, 0, 0.1, 1}, FluidSide::above), true, "rms_height"},
         {make_wall("w", narrow, FluidSide::above), true, "covers"},
         {make_wall("w", unsorted, FluidSide::above), true, "row 5"},
         {make_wall("w", uneven, FluidSide::above), true, "heights"},

@@ -97,7 +97,7 @@ TEST_F(ReadScene, SaysWhereAndWhatIsAllowed) {
     EXPECT_EQ(
         refusal(replaced(full_scene, "\"cosine\"\nfluid", "\"cosin\"\nfluid")),
         "scene.toml:26:9: found walls.shape = the string \"cosin\", allowed one of \"line\", \"cosine\", "
-        "\"gaussian\", \"arc\", \"sine\", \"profile\", nearest known key cosine");
+        "\"gaussian\", \"arc\", \"sine\", \"profile\", \"random\", nearest known key cosine");
     EXPECT_EQ(
         refusal(replaced(full_scene, "[fluid]", "[fluids]")),
         "scene.toml:5:2: found the unknown table [fluids], allowed scene, domain, fluid, numerics, start, "

@@ -109,6 +109,14 @@ placement = "random"
 density = 2000
 count = 3
 radius = 0.4
+
+[[walls]]
+name = "rough"
+shape = "random"
+fluid_side = "above"
+mean_height = 0.5
+rms_height = 0.1
+correlation_length = 0.5
 )";
 
 // The text with the first occurrence of a part replaced; the part has to be there.
