@@ -1,8 +1,8 @@
 """One run of a case: `python -m verification.run_one CASE VARIANT --spacing M [--seed N]`.
 
 A member of an ensemble is a variant under another seed; `[ensemble] seed` of the case's checks.toml names the
-key of the scene that takes it. The run lands in OUT/runs/CASE/SCHEME/VARIANT_seed_N/SPACING/result.h5, without
-`_seed_N` when no seed is asked for. A result of the same solver, scene and settings is kept.
+key of the scene that takes it. The run lands in OUT/runs/CASE/SCHEME/VARIANT_seed_N/SPACING/result.h5, or
+without `_seed_N` when no seed is asked for. A result of the same solver, scene and settings is kept.
 """
 
 from __future__ import annotations
@@ -20,21 +20,25 @@ SEEDS_APART = 1000  # between variants: members of different variants are indepe
 
 
 def member(case: Case, variant: str, seed: int | None) -> Variant:
-    """The variant, under that seed if there is one; raises CaseError for a name or a seed it does not have."""
+    """The variant, under that seed if there is one; raises CaseError for what the case does not have."""
     found = next((v for v in case.variants if v.name == variant), None)
     if found is None:
-        raise CaseError(f"{case.name} has no variant {variant}, only {', '.join(v.name for v in case.variants)}")
+        raise CaseError(
+            f"{case.name} has no variant {variant}, only {', '.join(v.name for v in case.variants)}"
+        )
     if seed is None:
         return found
     if "seed" not in case.data.get("ensemble", {}):
-        raise CaseError(f"{case.name} takes no seed: its checks.toml has no [ensemble] with a key `seed`")
-    # Discs are placed one after another: under one seed those of a small group are among those of a larger one.
+        raise CaseError(f"{case.name} takes no seed: its checks.toml has no [ensemble] with a `seed`")
+    # Discs are placed one after another: under one seed a small group's are among those of a larger one.
     own = SEEDS_APART * (1 + case.variants.index(found)) + seed
     return Variant(f"{variant}_seed_{seed}", {**found.set, case.data["ensemble"]["seed"]: own})
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="python -m verification.run_one", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        prog="python -m verification.run_one", description=__doc__.splitlines()[0]
+    )
     parser.add_argument("case")
     parser.add_argument("variant")
     parser.add_argument("--spacing", type=float, required=True, metavar="M")
