@@ -67,7 +67,7 @@ class Check:
     data: Curves | None = None  # published curves; more than one: the band between them
     conserved: bool = False  # every step's value against the one before
     window: tuple[float, float] | None = None  # s; of a time series, instead of one time
-    statistic: str | None = None  # that stands for the window; see case.STATISTICS
+    statistic: str | None = None  # that stands for the window, or the wall; see case.STATISTICS
     unit: str = ""  # of an absolute error
     stated_scale: float | None = None  # of an error that is relative to a number, in the field's unit
     reported: bool = False  # shown, but decides nothing

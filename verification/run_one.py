@@ -2,12 +2,14 @@
 
 A member of an ensemble is a variant under another seed; `[ensemble] seed` of the case's checks.toml names the
 key of the scene that takes it. The run lands in OUT/runs/CASE/SCHEME/VARIANT_seed_N/SPACING/result.h5, or
-without `_seed_N` when no seed is asked for. A result of the same solver, scene and settings is kept.
+without `_seed_N` when no seed is asked for; run.json beside it has what the solver says of the run. A result of
+the same solver, scene and settings is kept.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -61,6 +63,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     if outcome.failure:
         print(f"run_one: {outcome.run.label}: {outcome.failure}", file=sys.stderr)
         return 3
+    # Written last: it says that result.h5 beside it is whole.
+    (outcome.run.folder(options.out) / "run.json").write_text(json.dumps(outcome.attributes, indent=1) + "\n")
     print(f"{outcome.run.label}: {outcome.attributes['wall_seconds']:.0f} s")
     return 0
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
@@ -24,13 +25,17 @@ def error_of(
         raise DataError(f"nothing of variant {check.against} to compare with")
     if check.at == "particles":
         return measure(check, *_at_particles(check, result, reference))
-    if check.at.startswith("wall:"):
-        return measure(check, *_along_wall(check, result, reference, others))
-    measured, truth = _over_time(check, result, reference, others)
+    pair = _along_wall if check.at.startswith("wall:") else _over_time
+    measured, truth = pair(check, result, reference, others)
     if check.statistic:
-        reduce = REDUCTIONS[check.statistic]
-        measured, truth = reduce(measured), reduce(truth)
+        measured, truth = (reduced(check, values) for values in (measured, truth))
+        check = dataclasses.replace(check, subtract_mean=False)  # of one value nothing would be left
     return measure(check, measured, truth)
+
+
+def reduced(check: Check, values: Array) -> float:
+    """The check's statistic of values (n,), less their mean where the check says so."""
+    return float(REDUCTIONS[check.statistic](values - values.mean() if check.subtract_mean else values))
 
 
 def trusted(reference: Reference | None, kind: str) -> Reference:
