@@ -43,7 +43,7 @@ def sensitivity(
     for other in rules:
         fits = ranked(weight, np.array([other.frequency(run) for run in members]), looks)
         rows.append({"band": other.band, "least_duration_s": other.least_duration,
-                     "means": mean_by_count(runs, other), "best": fits[0]["model"],
+                     "means": mean_by_count(runs, other), "best": fits[0]["model"] if fits else "none: all alike",
                      "aic_behind_best": {f["model"]: f["aic"] - fits[0]["aic"] for f in fits}})  # fmt: skip
     return rows
 

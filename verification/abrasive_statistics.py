@@ -74,7 +74,7 @@ def memory(runs: Sequence[Peaks], rule: Rule) -> float:
 
 def log_likelihood(p: Array, correlation: float, active: Array, looks: float) -> float:
     """Of beta-binomial numbers of active looks (n,), real ones allowed, at means p (n,)."""
-    p = np.clip(p, 1e-6, 1 - 1e-6)
+    p, correlation = np.clip(p, 1e-6, 1 - 1e-6), float(np.clip(correlation, 1e-6, 1 - 1e-6))
     size = 1 / correlation - 1
     a, b = p * size, (1 - p) * size
     choices = -np.log(looks + 1) - special.betaln(active + 1, looks - active + 1)
@@ -104,7 +104,9 @@ def fit(name: str, weight: Array, frequency: Array, looks: float) -> dict[str, A
 
 
 def ranked(weight: Array, frequency: Array, looks: float) -> list[dict[str, Any]]:
-    """All models, the best by AIC first, with their Akaike weights."""
+    """All models, the best by AIC first, with their Akaike weights; none if no run differs from the others."""
+    if np.ptp(frequency) == 0:
+        return []
     fits = sorted((fit(name, weight, frequency, looks) for name in MODELS), key=lambda f: f["aic"])
     likely = np.exp([(fits[0]["aic"] - f["aic"]) / 2 for f in fits])
     return [f | {"akaike_weight": float(w)} for f, w in zip(fits, likely / likely.sum(), strict=True)]

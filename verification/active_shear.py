@@ -90,16 +90,25 @@ class Rule:
         return float(np.mean(self.active(run)))
 
 
-def read_run(path: Path, count: int, seed: int) -> Peaks:
-    """Raises DataError for a run without the probe, or one value that is not a number."""
+def read_wafer(path: Path) -> tuple[Array, Array, Array, Array]:
+    """Times (t,) in s, x (n,) in m where the wafer stood at time 0, pressure and shear (t, n) in Pa.
+
+    Raises DataError for a run without the probe, or one value that is not a number.
+    """
     try:
         with h5py.File(path, "r") as file:
             group = file[f"probes/{PROBE}"]
-            times, shear = group["time"][()], group["shear"][()]
+            times, x, pressure, shear = (group[key][()] for key in ("time", "x", "pressure", "shear"))
     except (OSError, KeyError) as error:
         raise DataError(f"{path}: no probe {PROBE}: {error}") from error
-    peak = np.abs(require_series(f"shear of {path}", shear, times)).max(axis=1)
-    return Peaks(count, seed, times, peak)
+    pressure, shear = (require_series(f"probe {PROBE} of {path}", v, times) for v in (pressure, shear))
+    return times, x, pressure, shear
+
+
+def read_run(path: Path, count: int, seed: int) -> Peaks:
+    """The peaks of one result.h5; raises DataError as read_wafer does."""
+    times, _, _, shear = read_wafer(path)
+    return Peaks(count, seed, times, np.abs(shear).max(axis=1))
 
 
 def count_of(case: Case, variant: str) -> int:

@@ -2,8 +2,8 @@
 
 A member of an ensemble is a variant under another seed; `[ensemble] seed` of the case's checks.toml names the
 key of the scene that takes it. The run lands in OUT/runs/CASE/SCHEME/VARIANT_seed_N/SPACING/result.h5, or
-without `_seed_N` when no seed is asked for; run.json beside it has what the solver says of the run. A result of
-the same solver, scene and settings is kept.
+without `_seed_N` when no seed is asked for; run.json beside it has what the solver says of the run. A result
+of the same solver, scene and settings is kept.
 """
 
 from __future__ import annotations
@@ -30,11 +30,12 @@ def member(case: Case, variant: str, seed: int | None) -> Variant:
         )
     if seed is None:
         return found
-    if "seed" not in case.data.get("ensemble", {}):
-        raise CaseError(f"{case.name} takes no seed: its checks.toml has no [ensemble] with a `seed`")
+    ensemble = case.data.get("ensemble", {})
+    if "seed" not in ensemble or variant not in ensemble.get("variants", []):
+        raise CaseError(f"{case.name} has no [ensemble] with a `seed` and {variant} among its `variants`")
     # Discs are placed one after another: under one seed a small group's are among those of a larger one.
-    own = SEEDS_APART * (1 + case.variants.index(found)) + seed
-    return Variant(f"{variant}_seed_{seed}", {**found.set, case.data["ensemble"]["seed"]: own})
+    own = SEEDS_APART * (1 + ensemble["variants"].index(variant)) + seed
+    return Variant(f"{variant}_seed_{seed}", {**found.set, ensemble["seed"]: own})
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -1,10 +1,10 @@
 """Which runs the workflow (verification/Snakefile) makes of a case, and how long they will take.
 
-Every variant of a case runs at the case's spacings for the level; a case with an [ensemble] in its
-checks.toml runs the ensemble's variants at the ensemble's spacings, once for each of the level's seeds. Nothing
-else of a case is known here: a case joins by its name in verification/workflow.yaml.
+Every variant of a case runs at the case's spacings for the level. Where its checks.toml has an [ensemble],
+the ensemble's variants run at the ensemble's spacings, too, once for each of the level's seeds. Nothing else
+of a case is known here: a case joins by its name in verification/workflow.yaml.
 
-`python -m verification.workflow --level LEVEL --cores N` prints what there is to do and how long it will take.
+`python -m verification.workflow CASE... --level LEVEL --cores N` says how long what there is to do will take.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ import statistics
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+
+import yaml
 
 from verification.case import LEVELS, ROOT, Case, CaseError, load_case, select
 from verification.execute import Run
@@ -38,17 +40,16 @@ def split(name: str) -> tuple[str, int | None]:
 
 def runs_of(case: Case, level: str) -> list[Run]:
     """The runs of a case at a level; raises CaseError for an ensemble that says nothing of the level."""
+    plain = [(s, v, d) for s in case.schemes for v in case.variants for d in case.spacings(s, level, v.name)]
+    finest = {(s, v.name): d for s, v, d in plain}  # the last is the finest
+    runs = [Run(case, s, v, d, d == finest[s, v.name]) for s, v, d in plain]
     ensemble = case.data.get("ensemble")
     if ensemble is None:
-        plain = [
-            (s, v, d) for s in case.schemes for v in case.variants for d in case.spacings(s, level, v.name)
-        ]
-        finest = {(s, v.name): d for s, v, d in plain}  # the last is the finest
-        return [Run(case, s, v, d, d == finest[s, v.name]) for s, v, d in plain]
+        return runs
     spacings, seeds = (select(ensemble.get(key), (level,)) for key in ("spacings", "seeds"))
     if not spacings or not seeds:
         raise CaseError(f"checks.toml of {case.name}: [ensemble] needs spacings and seeds for {level}")
-    return [
+    return runs + [
         Run(case, case.schemes[0], member(case, name, seed), float(spacing), spacing == min(spacings))
         for spacing in spacings
         for name in ensemble["variants"]
@@ -77,13 +78,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m verification.workflow", description=__doc__.splitlines()[0]
     )
-    parser.add_argument("cases", nargs="+", metavar="CASE")
+    parser.add_argument("cases", nargs="*", metavar="CASE", help="default: those of workflow.yaml")
     parser.add_argument("--level", choices=LEVELS, default="gate")
     parser.add_argument("--cores", type=int, default=1)
     parser.add_argument("--out", type=Path, default=ROOT.parent / "build" / "figures")
     options = parser.parse_args(argv)
     try:
-        runs = [run for name in options.cases for run in runs_of(load_case(name), options.level)]
+        cases = options.cases or yaml.safe_load(CASES.read_text())["cases"]
+        runs = [run for name in cases for run in runs_of(load_case(name), options.level)]
     except CaseError as error:
         print(f"workflow: {error}", file=sys.stderr)
         return 2
