@@ -121,7 +121,7 @@ def active_shear(data: Data) -> Figure:
         found = analyse(runs, data.case.scene(), Rule(rule.threshold, band))
         rows = found["rows"][1:]
         weight, mean = (np.array([row[key] for row in rows]) for key in ("weight_percent", "mean"))
-        ends = np.abs(np.array([row["interval"] for row in rows]).T - mean)
+        ends = np.abs(np.array([row["interval"] or (row["mean"],) * 2 for row in rows]).T - mean)
         style = {"marker": MARKERS[index], "color": COLOURS[index], "linestyle": "", "capsize": 3}
         left.errorbar(weight / weight.max(), mean, ends, label=f"band {100 * band:g} %", **style)
         before = weight <= 5.1

@@ -34,7 +34,7 @@ def mean_by_count(runs: Sequence[Peaks], rule: Rule) -> dict[int, float]:
 def sensitivity(
     runs: Sequence[Peaks], rule: Rule, scene: dict[str, Any], looks: float
 ) -> list[dict[str, Any]]:
-    """F_tau by other rules, and the model that the data prefer then; at a band of 0 noise decides."""
+    """F_tau by other rules, and the model preferred then; at a band of 0 noise decides."""
     rules = [dataclasses.replace(rule, band=band) for band in BANDS]
     rules += [dataclasses.replace(rule, least_duration=least) for least in LEAST_DURATIONS]
     rows = []
@@ -43,7 +43,8 @@ def sensitivity(
     for other in rules:
         fits = ranked(weight, np.array([other.frequency(run) for run in members]), looks)
         rows.append({"band": other.band, "least_duration_s": other.least_duration,
-                     "means": mean_by_count(runs, other), "best": fits[0]["model"] if fits else "none: all alike",
+                     "means": mean_by_count(runs, other),
+                     "best": fits[0]["model"] if fits else "none: all alike",
                      "aic_behind_best": {f["model"]: f["aic"] - fits[0]["aic"] for f in fits}})  # fmt: skip
     return rows
 
@@ -74,13 +75,13 @@ def paired(coarse: Sequence[Peaks], fine: Sequence[Peaks]) -> dict[str, Any]:
     return {"members": [list(key) for key in common], "threshold": rules[1].threshold,
             "coarse": [mine[key] for key in common], "fine": [other[key] for key in common],
             "mean_difference": float(difference.mean()),
-            "interval": interval(difference) if len(common) > 2 else None}  # fmt: skip
+            "interval": interval(difference)}  # fmt: skip
 
 
 def tables(found: dict[str, Any]) -> str:
     result = found["result"]
     rows = [("", (f"{r['count']}", f"{r['weight_percent']:.2f}", f"{r['members']}", f"{r['mean']:.3f}",
-             "{:.3f} to {:.3f}".format(*r["interval"]) if "interval" in r else "by definition"))
+             "{:.3f} to {:.3f}".format(*r["interval"]) if r.get("interval") else "none"))
             for r in result["rows"]]  # fmt: skip
     parts = [Table(("discs", "% by weight", "members", "F_tau", "95 % interval"), rows).markdown()]
     counts = [r["count"] for r in result["rows"]]

@@ -25,6 +25,7 @@ from verification.compare import Array, DataError
 
 SATURATION = 5.1  # % by weight: the paper's "about 5 %", so that its 5.08 % is not beyond
 RESAMPLES = 9999
+FEWEST = 3  # members that have an interval
 SEED = 20140101  # of the bootstrap: the same data give the same interval
 BANDS = (0.0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2)
 LEAST_DURATIONS = (0.0, 1.5e-6, 3e-6, 6e-6)  # s
@@ -51,10 +52,10 @@ def weight_percent(count: int, scene: dict[str, Any]) -> float:
     return float(100 * mass / (scene["fluid"]["density"] * area))
 
 
-def interval(values: Array, seed: int = SEED) -> tuple[float, float]:
-    """95 % bootstrap interval of the mean; raises DataError for fewer than three members."""
-    if len(values) < 3:
-        raise DataError(f"an interval needs three members or more, not {len(values)}")
+def interval(values: Array, seed: int = SEED) -> tuple[float, float] | None:
+    """95 % bootstrap interval of the mean; None for fewer than three members, which have none."""
+    if len(values) < FEWEST:
+        return None
     draws = np.random.default_rng(seed).choice(values, (RESAMPLES, len(values))).mean(axis=1)
     low, high = np.quantile(draws, [0.025, 0.975])
     return float(low), float(high)
@@ -81,17 +82,24 @@ def log_likelihood(p: Array, correlation: float, active: Array, looks: float) ->
     return float(np.sum(choices + special.betaln(active + a, looks - active + b) - special.betaln(a, b)))
 
 
+def _likeliest(mean: Callable[[Array], Array], start: Sequence[float], frequency: Array, looks: float) -> Any:
+    """SciPy's minimum of -ln L over the logarithms of the parameters and the logit of the correlation."""
+
+    def cost(x: Array) -> float:
+        p = np.clip(mean(np.exp(x[:-1])), 0, 1)
+        return -log_likelihood(p, float(special.expit(x[-1])), frequency * looks, looks)
+
+    trials = [
+        optimize.minimize(cost, [*np.log(start), logit], method="Nelder-Mead", options={"maxiter": 4000})
+        for logit in (-2.0, 0.0)
+    ]
+    return min(trials, key=lambda trial: trial.fun)
+
+
 def fit(name: str, weight: Array, frequency: Array, looks: float) -> dict[str, Any]:
     """The model's most likely parameters, log likelihood, AIC and BIC."""
     model, start = MODELS[name]
-
-    def cost(x: Array) -> float:
-        p = np.clip(model(weight, np.exp(x[:-1])), 0, 1)
-        return -log_likelihood(p, float(special.expit(x[-1])), frequency * looks, looks)
-
-    trials = [optimize.minimize(cost, [*np.log(start), c], method="Nelder-Mead", options={"maxiter": 4000})
-              for c in (-2.0, 0.0)]  # fmt: skip
-    best = min(trials, key=lambda trial: trial.fun)
+    best = _likeliest(lambda parameters: model(weight, parameters), start, frequency, looks)
     count = len(best.x)
     return {
         "model": name,
@@ -104,7 +112,7 @@ def fit(name: str, weight: Array, frequency: Array, looks: float) -> dict[str, A
 
 
 def ranked(weight: Array, frequency: Array, looks: float) -> list[dict[str, Any]]:
-    """All models, the best by AIC first, with their Akaike weights; none if no run differs from the others."""
+    """All models, the best by AIC first, with their Akaike weights; none if all runs are alike."""
     if np.ptp(frequency) == 0:
         return []
     fits = sorted((fit(name, weight, frequency, looks) for name in MODELS), key=lambda f: f["aic"])
@@ -114,23 +122,20 @@ def ranked(weight: Array, frequency: Array, looks: float) -> list[dict[str, Any]
 
 def exponent(weight: Array, frequency: Array, looks: float) -> tuple[float, float, float]:
     """b of F_tau = a w^b with its 95 % interval by profile likelihood (within 3.84 / 2 of the top)."""
-    best = fit("power", weight, frequency, looks)
-
-    def profile(b: float) -> float:
-        def cost(x: Array) -> float:
-            p = np.clip(np.exp(x[0]) * weight**b, 0, 1)
-            return -log_likelihood(p, float(special.expit(x[1])), frequency * looks, looks)
-
-        start = [math.log(frequency.mean()) - b * np.log(weight).mean(), special.logit(best["correlation"])]
-        return -float(optimize.minimize(cost, start, method="Nelder-Mead").fun)
-
-    grid = np.linspace(-0.2, 1.6, 181)
-    inside = grid[np.array([profile(b) for b in grid]) > best["log_likelihood"] - stats.chi2.ppf(0.95, 1) / 2]
-    return best["parameters"][1], float(inside.min()), float(inside.max())
+    grid = np.linspace(-0.2, 1.8, 101)
+    start = [(frequency.mean() / np.mean(weight**b),) for b in grid]
+    profile = -np.array(
+        [
+            _likeliest(lambda a, b=b: a[0] * weight**b, first, frequency, looks).fun
+            for b, first in zip(grid, start, strict=True)
+        ]
+    )
+    inside = grid[profile > profile.max() - stats.chi2.ppf(0.95, 1) / 2]
+    return float(grid[np.argmax(profile)]), float(inside.min()), float(inside.max())
 
 
 def slope(weight: Array, frequency: Array) -> tuple[float, float, float]:
-    """d F_tau / d w per % by least squares with its 95 % bootstrap interval, over each one's members."""
+    """d F_tau / d w per % by least squares and its 95 % bootstrap interval, over members."""
     generator, slopes = np.random.default_rng(SEED), []
     groups = [np.flatnonzero(weight == w) for w in np.unique(weight)]
     for _ in range(RESAMPLES // 5):
