@@ -64,7 +64,7 @@ def halves(runs: Sequence[Peaks], rule: Rule) -> dict[str, Any]:
 
 
 def paired(coarse: Sequence[Peaks], fine: Sequence[Peaks]) -> dict[str, Any]:
-    """F_tau at another spacing less the ensemble's, for members in common, each by its own threshold."""
+    """F_tau at the spacing `fine` less that at `coarse`, for members in common, each by its own threshold."""
     rules = Rule.of(coarse[0]), Rule.of(fine[0])
     mine = {(run.count, run.seed): rules[0].frequency(run) for run in coarse if run.count > 0}
     other = {(run.count, run.seed): rules[1].frequency(run) for run in fine if run.count > 0}
@@ -72,9 +72,10 @@ def paired(coarse: Sequence[Peaks], fine: Sequence[Peaks]) -> dict[str, Any]:
     if not common:
         raise DataError("the two spacings have no member in common")
     difference = np.array([other[key] - mine[key] for key in common])
-    return {"members": [list(key) for key in common], "threshold": rules[1].threshold,
+    return {"members": [list(key) for key in common], "thresholds": [rule.threshold for rule in rules],
             "coarse": [mine[key] for key in common], "fine": [other[key] for key in common],
             "mean_difference": float(difference.mean()),
+            "largest_difference": float(np.abs(difference).max()),
             "interval": interval(difference)}  # fmt: skip
 
 
@@ -107,9 +108,9 @@ def tables(found: dict[str, Any]) -> str:
         ),
     ]
     for name, pair in found["spacings"].items():
-        lines.append(f"{name}: threshold {pair['threshold']:.2f} Pa, {len(pair['members'])} members in "
-                     f"common, F_tau {pair['fine']} for {pair['coarse']}, mean difference "
-                     f"{pair['mean_difference']:.3f}, interval {pair['interval']}")  # fmt: skip
+        lines.append(f"against {name}: thresholds {pair['thresholds']} Pa, {len(pair['members'])} members in "
+                     f"common, F_tau higher by {pair['mean_difference']:.3f}, interval {pair['interval']}, "
+                     f"largest difference {pair['largest_difference']:.3f}")  # fmt: skip
     return "\n".join([*parts, *lines])
 
 
@@ -125,7 +126,7 @@ def report(csv: Path, others: Sequence[Path]) -> dict[str, Any]:
         "settled_from_s": settled_from(runs[0], rule),
         "sensitivity": sensitivity(runs, rule, scene, looks),
         "halves": halves(runs, rule),
-        "spacings": {path.stem: paired(runs, read(path)) for path in others},
+        "spacings": {path.stem: paired(read(path), runs) for path in others},
     }
 
 

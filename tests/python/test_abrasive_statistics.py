@@ -112,7 +112,7 @@ def test_report_of_a_saturating_ensemble(tmp_path):
     assert found["result"]["rise"]["p"] < 0.01
     assert [row["count"] for row in found["result"]["rows"]] == [0, 4, 7, 11, 14, 19, 22, 25, 28]
     assert found["result"]["rows"][0]["mean"] == 0
-    assert found["spacings"]["ensemble"]["mean_difference"] == 0
+    assert found["spacings"]["ensemble"]["largest_difference"] == 0
     assert "1 - exp(-lambda n)" in tables(found)
 
 
