@@ -10,6 +10,7 @@ rule abrasive_peaks:
         OUT / "runs/abrasive_free/default/wafer_moves/{spacing}/run.json",
     output:
         OUT / "abrasives_{spacing}.csv",
+    localrule: True
     shell:
         "{PYTHON} -m verification.active_shear --spacing {wildcards.spacing} --out {OUT} --csv {output}"
 
@@ -22,6 +23,7 @@ rule abrasive_report:
         csv=OUT / "abrasives.csv",
         json=OUT / "abrasives.json",
         tables=OUT / "abrasives.md",
+    localrule: True
     params:
         others=lambda wildcards, input: " ".join(f"--other {name}" for name in input.others),
     shell:
