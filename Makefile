@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test test-kill reference verify report faults baseline bench bench-peers counts lint sanitize fuzz flows format docs clean
+.PHONY: help setup configure build test test-kill reference verify report faults baseline bench bench-peers counts figures test-slurm lint sanitize fuzz flows format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -25,6 +25,14 @@ configure: setup
 
 build: configure ## Build build/slurry and its tests
 	@env -u MAKEFLAGS -u MFLAGS cmake --build $(BUILD) --parallel $(JOBS)
+
+figures: build ## Sweeps, ensembles and their figures (build/figures), on all cores; resumes (LEVEL=gate or paper)
+	@$(PYTHON) -m verification.workflow --level $(LEVEL) --cores $(JOBS)
+	@env -u MAKEFLAGS -u MFLAGS $(PYTHON) -m snakemake --profile verification/profiles/local --cores $(JOBS) \
+	    --config level=$(LEVEL)
+
+test-slurm: build ## A small ensemble through a Slurm cluster of this machine alone; skipped where that cannot run
+	@scripts/test_slurm
 
 test: build ## Unit tests: GoogleTest through ctest, then pytest
 	@ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure --no-tests=error

@@ -16,7 +16,7 @@ from typing import Any
 
 import matplotlib
 
-from verification import asperity_figures, baseline, disc_figures, figures
+from verification import abrasive_figures, asperity_figures, baseline, disc_figures, feature_figures, figures
 from verification.case import ROOT, CaseError, Variant, load_case
 from verification.compare import DataError
 from verification.figures import STYLE, Data
@@ -25,8 +25,9 @@ from verification.results import standing, summary
 
 MARKERS = ("<!-- results:begin -->", "<!-- results:end -->")
 MAIN_FIGURE = "rough_channel_wafer"
-FIGURES = figures.FIGURES | disc_figures.FIGURES | asperity_figures.FIGURES
-CAPTIONS = figures.CAPTIONS | disc_figures.CAPTIONS | asperity_figures.CAPTIONS
+FIGURE_FILES = (figures, disc_figures, asperity_figures, feature_figures, abrasive_figures)
+FIGURES = {name: draw for file in FIGURE_FILES for name, draw in file.FIGURES.items()}
+CAPTIONS = {name: caption for file in FIGURE_FILES for name, caption in file.CAPTIONS.items()}
 
 
 def percent(value: float | None) -> str:
