@@ -6,28 +6,32 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csc_matrix, diags
-from scipy.sparse.linalg import LinearOperator, gmres, splu
+from scipy.sparse.linalg import LinearOperator, SuperLU, gmres, splu
 from skfem import MeshQuad1DG
 
 from reference.base import Array, ReferenceError
-from reference.channel_mesh import Channel, ChannelMapping, Elements, Polynomials, mesh_lines
-from reference.channel_solution import COMPRESSIBILITY, DEGREE, load
+from reference.channel_mesh import Channel, ChannelMapping, Elements, Polynomials, joined_lines
+from reference.channel_solution import DEGREE
 from reference.walls import Function
 
-PER_GAP = 2  # elements across the narrowest gap on the coarsest mesh
+PER_GAP = 3  # elements across the narrowest gap on the coarsest mesh
+# Of the factored matrix, per pressure mass: pivots do not vanish, and a few iterations undo it.
+COMPRESSIBILITY = 1e-5
+GRADING = 1.5  # growth of elements over the distance to a corner
 KINK_SIZE = 1e-3  # smallest element at a kink, in mean gaps, on the coarsest mesh
 DERIVATIVE = {1: (1, -1), 2: (3 / 2, -2, 1 / 2), 3: (11 / 6, -3, 3 / 2, -1 / 3)}  # of BDF, newest first
 EXTRAPOLATION = {1: (1,), 2: (2, -1), 3: (3, -3, 1)}
 ORDER = 3
-RESIDUAL = 1e-9  # relative, of the linear system of a step
-MOST_ITERATIONS = 14  # with an old factorisation, before a new one is made
+RESIDUAL = 1e-6  # relative, of the correction of the extrapolated state
+SMALLEST = 1e-11  # absolute
+MOST_ITERATIONS = 12  # with an old factorisation, before a new one is made
 
 
 @dataclass(frozen=True)
 class MovingProblem:
     """Without dimensions: the mean gap, the moving wall's speed U and eta U / gap are the units.
 
-    The top is at rest; the bottom is bottom(x - t).
+    The top is at rest; the bottom is bottom(x - direction t).
     """
 
     start: float
@@ -37,60 +41,88 @@ class MovingProblem:
     bottom_slope: Function
     top_slope: Function
     highest: float  # of the bottom
-    kinks: tuple[tuple[float, bool], ...]  # of the top
+    kinks: tuple[tuple[float, bool], ...]  # of the top: x, and whether the corner points into the fluid
     reynolds: float
+    direction: float  # 1 or -1
 
     def lines(self, refinement: int) -> tuple[Array, Array]:
-        """Mesh lines for the narrowest gap that passes each x."""
-        narrowest = Channel(
-            self.start,
-            self.length,
-            lambda x: np.full(np.shape(x), self.highest),
-            self.top,
-            lambda x: np.zeros(np.shape(x)),
-            self.top_slope,
-            self.kinks,
-        )
-        return mesh_lines(narrowest, PER_GAP, KINK_SIZE, refinement)
+        """Mesh lines for the narrowest gap that passes each x, crowding towards corners that point into the
+        fluid; elsewhere the solution is smooth enough.
+        """
+
+        def x_size(x: Array) -> Array:
+            size = (self.top(x) - self.highest) / PER_GAP
+            for kink, sharp in self.kinks:
+                if sharp:
+                    size = np.minimum(size, GRADING * self.distance(x, kink) + KINK_SIZE)
+            return size
+
+        def eta_size(eta: Array) -> Array:
+            size = np.full(np.shape(eta), 1 / PER_GAP)
+            if any(sharp for _, sharp in self.kinks):
+                size = np.minimum(size, GRADING * (1 - eta) + KINK_SIZE)
+            return size
+
+        end = self.start + self.length
+        inner = sorted(x for x, _ in self.kinks if self.start < x < end)
+        x_lines = joined_lines([self.start, *inner, end], x_size, refinement)
+        return x_lines, joined_lines([0.0, 1.0], eta_size, refinement)
+
+    def distance(self, x: Array, other: float) -> Array:
+        """Along the periodic channel."""
+        away = np.abs(x - other)
+        return np.minimum(away, self.length - away)
 
 
 class Space:
     """Velocity and pressure on the rectangle (x, eta), and the pattern of the matrix of a step."""
 
     def __init__(self, problem: MovingProblem, refinement: int):
-        lines = problem.lines(refinement)
+        self.lines = lines = problem.lines(refinement)
         self.polynomials = Polynomials(*lines, DEGREE)
         mesh = MeshQuad1DG.init_tensor(*lines, periodic=[0])
         self.rectangle = ChannelMapping(mesh, _rectangle(problem))
         self.velocity = Elements(mesh, self.rectangle, DEGREE, DEGREE + 2)
         self.pressure = Elements(mesh, self.rectangle, DEGREE - 1, DEGREE + 2)
+        self.pressure_polynomials = Polynomials(*lines, DEGREE - 1)
         self.weights = self.velocity.basis.dx
         self.x, self.eta = self.rectangle.affine.F(self.velocity.basis.X)
         self.phi, self.phi_x, self.phi_eta = _shape_functions(self.velocity)
         self.psi = _shape_functions(self.pressure)[0]
         self.size, self.pressures = self.velocity.basis.N, self.pressure.basis.N
         self.top_dofs, self.bottom_dofs = (self._wall_dofs(top) for top in (True, False))
-        self._set_pattern()
+        self.set_pattern()
 
     def _wall_dofs(self, top: bool) -> Array:
         wall = self.velocity.wall(top)
         present = [np.abs(np.asarray(function[0])).max() > 1e-12 for function in wall.basis]
         return np.unique(wall.element_dofs[present])
 
-    def _set_pattern(self) -> None:
-        """Where the entries of the elements' matrices go in the matrix of the unknowns."""
+    def set_pattern(self) -> None:
+        """Where the entries of the elements' matrices go in the matrix of all unknowns, and of the free ones:
+        velocities on the walls and one pressure are held.
+        """
         u = self.velocity.basis.element_dofs.T
         p = self.pressure.basis.element_dofs.T + 2 * self.size
-        blocks = [(u, u), (u + self.size, u + self.size), (u, p), (u + self.size, p), (p, u), (p, u + self.size)]
-        rows = np.concatenate([np.broadcast_to(r[:, :, None], (*r.shape, c.shape[1])).ravel() for r, c in blocks])
-        columns = np.concatenate(
-            [np.broadcast_to(c[:, None, :], (len(c), r.shape[1], c.shape[1])).ravel() for r, c in blocks]
-        )
+        v = u + self.size
+        blocks = [(u, u), (v, v), (u, p), (v, p), (p, u), (p, v)]  # rows and columns (elements, functions)
+        rows = np.concatenate([np.repeat(r, c.shape[1], axis=1).ravel() for r, c in blocks])
+        columns = np.concatenate([np.tile(c, (1, r.shape[1])).ravel() for r, c in blocks])
         total = 2 * self.size + self.pressures
         keys, self.place = np.unique(columns.astype(np.int64) * total + rows, return_inverse=True)
         self.indices = keys % total
         self.pointers = np.searchsorted(keys, np.arange(total + 1, dtype=np.int64) * total)
         self.total = total
+        walls = np.concatenate([self.top_dofs, self.bottom_dofs])
+        self.fixed = np.concatenate([walls, self.size + walls, [2 * self.size]])
+        self.free = np.setdiff1d(np.arange(total), self.fixed)
+        self.kept = np.flatnonzero(np.isin(self.indices, self.free) & np.isin(keys // total, self.free))
+        self.kept_indices = np.searchsorted(self.free, self.indices[self.kept])
+        column = np.searchsorted(self.free, keys[self.kept] // total)
+        mass = np.einsum("eiq,eq->ei", self.psi**2, self.weights)
+        masses = np.bincount(self.pressure.basis.element_dofs.T.ravel(), mass.ravel(), self.pressures)
+        self.compressibility = COMPRESSIBILITY * np.concatenate([np.zeros(2 * self.size), masses])[self.free]
+        self.kept_pointers = np.searchsorted(column, np.arange(len(self.free) + 1))
 
     def matrix(self, parts: list[Array]) -> csc_matrix:
         """Of the elements' matrices in the order of the blocks."""
@@ -98,22 +130,43 @@ class Space:
         data = np.bincount(self.place, weights=values, minlength=len(self.indices))
         return csc_matrix((data, self.indices, self.pointers), shape=(self.total, self.total))
 
+    def reduced(self, matrix: csc_matrix) -> csc_matrix:
+        """The matrix of the free unknowns."""
+        size = len(self.free)
+        return csc_matrix((matrix.data[self.kept], self.kept_indices, self.kept_pointers), shape=(size, size))
+
+    def pressure_nodes(self, problem: MovingProblem, state: "State") -> Array:
+        """Pressure, mean zero over the channel, at the nodes of pressure_polynomials."""
+        coefficients = state.unknowns[2 * self.size :]
+        gap = problem.top(self.x) - problem.bottom(self.x - problem.direction * state.time)
+        weights = self.weights * gap
+        values = self.gather(coefficients, self.pressure.basis.element_dofs, self.psi)
+        nodes = self.pressure.nodal(coefficients, self.pressure_polynomials)
+        return nodes - np.sum(values * weights) / np.sum(weights)
+
     def gather(self, values: Array, basis_dofs: Array, functions: Array) -> Array:
         """A function of coefficients `values` at the quadrature points (elements, points)."""
         return np.einsum("ei,eiq->eq", values[basis_dofs.T], functions)
 
 
 def _rectangle(problem: MovingProblem) -> Channel:
-    zero, one = (lambda value: lambda x: np.full(np.shape(x), value))(0.0), lambda x: np.ones(np.shape(x))
-    return Channel(problem.start, problem.length, zero, one, zero, zero, problem.kinks)
+    def constant(value: float) -> Function:
+        return lambda x: np.full(np.shape(x), value)
+
+    zero, one = constant(0.0), constant(1.0)
+    return Channel(problem.start, problem.length, zero, one, zero, zero, ())
 
 
 def _shape_functions(elements: Elements) -> tuple[Array, Array, Array]:
     """Values and derivatives by x and eta (elements, functions, points)."""
     basis = elements.basis
-    values = np.stack([np.broadcast_to(np.asarray(f[0]), basis.dx.shape) for f in basis.basis], axis=1)
-    gradient = [np.stack([np.broadcast_to(f[0].grad[a], basis.dx.shape) for f in basis.basis], axis=1) for a in (0, 1)]
-    return np.ascontiguousarray(values), *map(np.ascontiguousarray, gradient)
+
+    def stacked(parts: list[Array]) -> Array:
+        return np.stack([np.broadcast_to(part, basis.dx.shape) for part in parts], axis=1)
+
+    functions = [function[0] for function in basis.basis]
+    values = stacked([np.asarray(function) for function in functions])
+    return values, *(stacked([function.grad[axis] for function in functions]) for axis in (0, 1))
 
 
 @dataclass
@@ -129,7 +182,6 @@ class Flow:
         self.problem, self.space = problem, space
         self.step = problem.length / steps
         self.factors = None
-        self.factorisations = 0
         if start is None:
             first = State(0.0, np.zeros(space.total))
             self.history: deque[State] = deque([first], maxlen=ORDER + 1)
@@ -172,72 +224,67 @@ class Flow:
         """The matrix of a step and the elements' matrices of Re (u, v)."""
         space, problem = self.space, self.problem
         x, eta = space.x, space.eta
-        bottom, bottom_slope = problem.bottom(x - time), problem.bottom_slope(x - time)
+        shifted = x - problem.direction * time
+        bottom, bottom_slope = problem.bottom(shifted), problem.bottom_slope(shifted)
         gap = problem.top(x) - bottom
         slope = bottom_slope + eta * (problem.top_slope(x) - bottom_slope)
         weights = (space.weights * gap)[:, None, :]
-        along = space.phi_x - (slope / gap)[:, None, :] * space.phi_eta
+        along = space.phi_x - (slope / gap)[:, None, :] * space.phi_eta  # derivatives by x and y
         across = space.phi_eta / gap[:, None, :]
         dofs = space.velocity.basis.element_dofs
         speed_x = space.gather(carrier[: space.size], dofs, space.phi)
         speed_y = space.gather(carrier[space.size :], dofs, space.phi)
-        speed_y += (1 - eta) * bottom_slope  # less the mesh's velocity, of which the bottom has -bottom'
+        speed_y += (1 - eta) * problem.direction * bottom_slope  # less the mesh's velocity
         weighted = problem.reynolds * weights * space.phi
-        inertia = weighted @ space.phi.transpose(0, 2, 1)
-        convection = weighted @ (speed_x[:, None] * along + speed_y[:, None] * across).transpose(0, 2, 1)
-        friction = (weights * along) @ along.transpose(0, 2, 1) + (weights * across) @ across.transpose(0, 2, 1)
+        inertia = weighted @ _transposed(space.phi)
+        convection = weighted @ _transposed(speed_x[:, None] * along + speed_y[:, None] * across)
+        friction = (weights * along) @ _transposed(along) + (weights * across) @ _transposed(across)
         momentum = rate * inertia + convection + friction
-        psi = (weights * space.psi).transpose(0, 2, 1)
+        psi = _transposed(weights * space.psi)
         gradient = [-along @ psi, -across @ psi]
-        parts = [momentum, momentum, *gradient, *(g.transpose(0, 2, 1) for g in gradient)]
+        parts = [momentum, momentum, *gradient, *map(_transposed, gradient)]
         return space.matrix(parts), inertia
 
     def _solved(self, matrix: csc_matrix, load: Array, newest: list[Array]) -> Array:
         """The unknowns with the walls' velocities and the mean of the pressure as they should be."""
         space = self.space
-        walls = np.concatenate([space.top_dofs, space.bottom_dofs])
-        fixed = np.concatenate([walls, space.size + walls, [2 * space.size]])
-        free = np.setdiff1d(np.arange(space.total), fixed)
         unknowns = sum(c * u for c, u in zip(EXTRAPOLATION[len(newest)], newest, strict=True))
-        unknowns[fixed] = 0
-        unknowns[np.intersect1d(space.bottom_dofs, space.velocity.basis.nodal_dofs)] = 1
-        residual = (load - matrix @ unknowns)[free]
-        unknowns[free] += self._corrected(matrix[free][:, free], residual, np.abs(load).max())
-        if not np.isfinite(unknowns).all():
-            raise ReferenceError(f"the flow has no solution at time {self.history[-1].time:.4g}")
+        unknowns[space.fixed] = 0
+        unknowns[np.intersect1d(space.bottom_dofs, space.velocity.basis.nodal_dofs)] = self.problem.direction
+        residual = (load - matrix @ unknowns)[space.free]
+        unknowns[space.free] += self._corrected(space.reduced(matrix), residual)
         return unknowns
 
-    def _corrected(self, matrix: csc_matrix, residual: Array, scale: float) -> Array:
+    def _corrected(self, matrix: csc_matrix, residual: Array) -> Array:
         """Solves by GMRES, with the factors of an earlier step as long as they help."""
-        for attempt in range(2):
-            if self.factors is None:
-                self.factors = self._factors(matrix)
+        for factors in (self.factors, None):
+            self.factors = factors or _factors(matrix, self.space.compressibility)
             operator = LinearOperator(matrix.shape, self.factors.solve)
-            size = max(float(np.linalg.norm(residual)), 1e-300)
             solution, missed = gmres(
-                matrix, residual, M=operator, rtol=RESIDUAL, atol=RESIDUAL, maxiter=1, restart=MOST_ITERATIONS
+                matrix, residual, M=operator, rtol=RESIDUAL, atol=SMALLEST, maxiter=3, restart=MOST_ITERATIONS
             )
             if missed == 0:
                 return solution
-            self.factors = None
-        return solution
+        raise ReferenceError(f"no convergence of a step after time {self.history[-1].time:.4g}")
 
-    def _factors(self, matrix: csc_matrix) -> object:
-        self.factorisations += 1
-        shift = diags(np.where(matrix.diagonal() == 0, -COMPRESSIBILITY, 0.0))
-        ordering = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
-        return splu((matrix + shift).tocsc(), **ordering)
+
+def _factors(matrix: csc_matrix, compressibility: Array) -> SuperLU:
+    """Without pivoting: the fill is that of a symmetric ordering."""
+    ordering = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+    return splu((matrix - diags(compressibility)).tocsc(), **ordering)
+
+
+def _transposed(matrices: Array) -> Array:
+    return matrices.transpose(0, 2, 1)
 
 
 def _projected(source: Space, unknowns: Array, target: Space) -> Array:
     """The same functions of (x, eta) on another mesh."""
     if source is target:
         return unknowns
-    sizes = (source.size, source.size, source.pressures)
-    pieces = np.split(unknowns, np.cumsum(sizes)[:-1])
-    result = []
-    for piece, own, other in zip(pieces, (source.velocity,) * 2 + (source.pressure,), (target.velocity,) * 2 + (target.pressure,), strict=True):
-        nodal = own.nodal(piece, source.polynomials)
-        values = source.polynomials.at(nodal[None], target.x.ravel(), target.eta.ravel()).reshape(target.x.shape)
-        result.append(other.basis.project(values))
-    return np.concatenate(result)
+    pieces = np.split(unknowns, [source.size, 2 * source.size])
+    own = (source.velocity, source.velocity, source.pressure)
+    other = (target.velocity, target.velocity, target.pressure)
+    nodal = np.array([e.nodal(piece, source.polynomials) for e, piece in zip(own, pieces, strict=True)])
+    values = source.polynomials.at(nodal, target.x.ravel(), target.eta.ravel()).reshape(3, *target.x.shape)
+    return np.concatenate([e.basis.project(value) for e, value in zip(other, values, strict=True)])
