@@ -18,13 +18,13 @@ PER_GAP = 3  # elements across the narrowest gap on the coarsest mesh
 # Of the factored matrix, per pressure mass: pivots do not vanish, and a few iterations undo it.
 COMPRESSIBILITY = 1e-5
 GRADING = 1.5  # growth of elements over the distance to a corner
-KINK_SIZE = 1e-3  # smallest element at a kink, in mean gaps, on the coarsest mesh
+KINK_SIZE = 2e-3  # smallest element at a kink, in mean gaps, on the coarsest mesh
 DERIVATIVE = {1: (1, -1), 2: (3 / 2, -2, 1 / 2), 3: (11 / 6, -3, 3 / 2, -1 / 3)}  # of BDF, newest first
 EXTRAPOLATION = {1: (1,), 2: (2, -1), 3: (3, -3, 1)}
 ORDER = 3
 RESIDUAL = 1e-6  # relative, of the correction of the extrapolated state
 SMALLEST = 1e-11  # absolute
-MOST_ITERATIONS = 12  # with an old factorisation, before a new one is made
+MOST_ITERATIONS = 16  # with an old factorisation, before a new one is made
 
 
 @dataclass(frozen=True)
