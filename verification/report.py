@@ -16,7 +16,7 @@ from typing import Any
 
 import matplotlib
 
-from verification import baseline, disc_figures, figures
+from verification import baseline, disc_figures, feature_figures, figures
 from verification.case import ROOT, CaseError, Variant, load_case
 from verification.compare import DataError
 from verification.figures import STYLE, Data
@@ -25,8 +25,8 @@ from verification.results import standing, summary
 
 MARKERS = ("<!-- results:begin -->", "<!-- results:end -->")
 MAIN_FIGURE = "rough_channel_wafer"
-FIGURES = figures.FIGURES | disc_figures.FIGURES
-CAPTIONS = figures.CAPTIONS | disc_figures.CAPTIONS
+FIGURES = figures.FIGURES | disc_figures.FIGURES | feature_figures.FIGURES
+CAPTIONS = figures.CAPTIONS | disc_figures.CAPTIONS | feature_figures.CAPTIONS
 
 
 def percent(value: float | None) -> str:
