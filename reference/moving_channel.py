@@ -16,15 +16,15 @@ an earlier step. Mesh: rectangles in (x, eta) with lines on the corners of the f
 (reference/channel_mesh.py); velocity continuous of degree 4, pressure of degree 3 (Taylor-Hood), with
 scikit-fem (gustafsson2020). reference/moving_channel_flow.py steps.
 
-Own convergence: from rest, SPIN_UP periods T of SPIN_UP_STEPS steps on the coarser mesh; from their end SETTLING
-and one period more, of STEPS and of 2 STEPS steps on it, and of STEPS steps on the finer mesh, which halves it.
-The result is the last period of the finer one, plus the change from STEPS to 2 STEPS on the coarser. Error
-estimates are relative, in L2, of the wall pressure over wall and period and of the pressure field at INSTANTS:
-the change from STEPS to 2 STEPS over 7 (order 3); the change from the coarser mesh to the finer over 3 (order 2;
-the flow over a flat wafer has more); what storing at the nodes of the coarser mesh changes; and the change from
-one period of the spin-up to the next, which shows that the flow is periodic. On corners that point into the
-fluid the pressure is unbounded; errors have the weight min(1, distance to the corner / CORNER_SHARE of the mean
-gap).
+Own convergence: from rest, SPIN_UP periods T of SPIN_UP_STEPS steps on the coarser mesh; from their end
+SETTLING and one period more, of STEPS and of 2 STEPS steps on it, and of STEPS steps on the finer mesh,
+which halves it. The result is the last period of the finer one, plus the change from STEPS to 2 STEPS on
+the coarser. Error estimates are relative, in L2, of the wall pressure over wall and period and of the
+pressure field at INSTANTS: the change from STEPS to 2 STEPS over 7 (order 3); the change from the coarser
+mesh to the finer over 3 (order 2; smooth walls have more); what storing at the nodes of the coarser mesh
+changes; and the change from one period of the spin-up to the next, which shows that the flow is periodic.
+On corners that point into the fluid the pressure is unbounded; errors have the weight min(1, distance to a
+corner / CORNER_SHARE mean gaps).
 
 A flow takes minutes. Those of verification/wafer_feature are stored in data/moving_channel_*.csv by
     python -m reference.moving_channel SCENE --name NAME [--set KEY=VALUE] [--point X Y]

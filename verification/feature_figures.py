@@ -91,7 +91,7 @@ FIGURES: dict[str, Callable[[Data], Figure]] = {
     "feature_fields": feature_fields,
 }
 CAPTIONS = {
-    "feature_sample": "Pressure at the sample point over a period (Fig. 14). The paper's peak is at about 0.7 T; "
-    "it leaves open where its asperity is at t0: ours is at the periodic side.",
+    "feature_sample": "Pressure at the sample point over a period (Fig. 14). The paper's peak is at 0.7 T; "
+    "it does not say where its asperity is at t0 (ours: at the periodic side).",
     "feature_fields": "Pressure at the paper's instants, the last period from t0 on (Fig. 15).",
 }
