@@ -7,9 +7,10 @@ from numpy.testing import assert_allclose
 import reference
 from reference import ReferenceError, moving_channel, moving_channel_flow
 from reference.base import canonical
-from reference.moving_channel import DATA, INSTANTS, Period, Units, Waves, solve
+from reference.moving_channel import DATA, INSTANTS, Period, solve
 from reference.moving_channel_flow import Flow, Space
 from reference.moving_channel_store import read_stored, write_stored
+from reference.moving_channel_units import Units, Waves
 from reference.scene import read_scene
 from verification.case import load_case
 
