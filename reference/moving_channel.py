@@ -12,10 +12,10 @@ w = (0, -(1 - eta) V bottom'). At a point of the mesh
 Weak form: for all (v, q) with v = 0 on the walls, D the BDF3 formula at fixed (x, eta), u* the velocity
 extrapolated with the same order from the steps before,
     Re (D u, v) + Re (((u* - w) . grad) u, v) + (grad u, grad v) - (p, div v) = 0,    (q, div u) = 0,
-all integrals over the channel at the new time: one linear system a step, solved by GMRES with the factors of
-an earlier step. Mesh: rectangles in (x, eta) with lines on the corners of the feature, crowding towards those
-that point into the fluid (reference/channel_mesh.py); velocity continuous of degree 4, pressure of degree 3 (Taylor-Hood), with
-scikit-fem (gustafsson2020). reference/moving_channel_flow.py steps.
+all integrals over the channel at the new time: one linear system a step, solved by GMRES with the factors
+of an earlier step. Mesh: rectangles in (x, eta) with lines on the corners of the feature, crowding towards
+those that point into the fluid (reference/channel_mesh.py); velocity continuous of degree 4, pressure of
+degree 3 (Taylor-Hood), with scikit-fem (gustafsson2020). reference/moving_channel_flow.py steps.
 
 Own convergence: from rest, SPIN_UP periods T of SPIN_UP_STEPS steps on the coarser mesh; from their end
 SETTLING and one period more, of STEPS and of 2 STEPS steps on it, and of STEPS steps on the finer mesh,
