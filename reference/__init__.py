@@ -11,7 +11,8 @@ from reference.base import Reference, ReferenceError
 from reference.scene import read_scene
 
 WITH_DISCS = ("free_flight", "immersed_boundary", "rotating_disc")
-NAMES = ("start_up_couette", "start_up_poiseuille", "taylor_green", "channel_navier_stokes", *WITH_DISCS)
+FLOWS = ("start_up_couette", "start_up_poiseuille", "taylor_green", "channel_navier_stokes", "moving_channel")
+NAMES = (*FLOWS, *WITH_DISCS)
 
 __all__ = ["NAMES", "Reference", "ReferenceError", "load"]
 

@@ -78,7 +78,8 @@ def _graded(start: float, end: float, size: Function, refinement: int) -> Array:
     return points
 
 
-def _joined(breaks: list[float], size: Function, refinement: int) -> Array:
+def joined_lines(breaks: list[float], size: Function, refinement: int) -> Array:
+    """Mesh lines on the breaks, spaced by about size(position) between; each refinement halves intervals."""
     pieces = [_graded(a, b, size, refinement) for a, b in zip(breaks, breaks[1:], strict=False)]
     return np.concatenate([pieces[0], *(piece[1:] for piece in pieces[1:])])
 
@@ -113,8 +114,8 @@ def mesh_lines(channel: Channel, per_gap: float, smallest: float, refinement: in
         return size
 
     inner = sorted({x for x, _ in channel.kinks if channel.start < x < end})
-    x_lines = _joined([channel.start, *inner, end], x_size, refinement)
-    return x_lines, _joined([0.0, 1.0], eta_size, refinement)
+    x_lines = joined_lines([channel.start, *inner, end], x_size, refinement)
+    return x_lines, joined_lines([0.0, 1.0], eta_size, refinement)
 
 
 def lobatto_points(degree: int) -> Array:

@@ -37,7 +37,12 @@ def tasks(root: Path, wanted: list[str]) -> Iterator[Task]:
                 if variant.get("name") in of.get("variants", [variant.get("name")])
             ]
             for reference in dict.fromkeys(mine):
-                yield label, reference, cases[name].with_name("scene.toml"), variant.get("set", {})
+                yield (
+                    label,
+                    reference,
+                    cases[name].with_name(variant.get("scene", "scene.toml")),
+                    variant.get("set", {}),
+                )
 
 
 def make(task: Task, cache: Path) -> None:

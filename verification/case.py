@@ -22,10 +22,10 @@ LEVELS = ("gate", "paper")
 CHECK_KEYS = {
     "quantity", "at", "field", "metric", "tolerance", "kind", "why", "order_band", "order_floor",
     "subtract_mean", "times", "from", "against", "variants", "known_shortfall", "reference", "value",
-    "source", "data", "conserved", "window", "statistic", "unit", "scale", "reported",
+    "source", "data", "conserved", "window", "statistic", "unit", "scale", "reported", "repeats",
 }  # fmt: skip
-TRUTHS = ("data", "against", "value", "conserved", "from")  # else the reference
-STATISTICS = ("min", "max", "mean", "deviation")
+TRUTHS = ("data", "against", "value", "conserved", "from", "repeats")  # else the reference
+STATISTICS = ("min", "max", "mean", "deviation", "peak")
 
 
 class CaseError(ValueError):
@@ -36,6 +36,7 @@ class CaseError(ValueError):
 class Variant:
     name: str
     set: Mapping[str, Any]  # overrides of the scene, as for --set
+    scene: str = "scene.toml"  # its file, for what overrides cannot say
 
 
 @dataclass(frozen=True)
@@ -66,11 +67,16 @@ class Case:
         )
         return sorted({check.reference for check in checks if check.reference})
 
+    def path(self, variant: Variant) -> Path:
+        """The variant's scene file."""
+        return self.scene_path.with_name(variant.scene)
+
     def scene(self, variant: Variant | None = None) -> dict[str, Any]:
         """The scene with the variant's overrides, defaults not filled in."""
-        scene = tomllib.loads(self.scene_path.read_text())
+        path = self.path(variant) if variant else self.scene_path
+        scene = tomllib.loads(path.read_text())
         for address, value in (variant.set if variant else {}).items():
-            override(scene, address, value, self.scene_path)
+            override(scene, address, value, path)
         return scene
 
     def checks(self, scheme: str, level: str, variant: str) -> list[Check]:
@@ -96,7 +102,9 @@ def load_case(name: str, root: Path = ROOT) -> Case:
     missing = {"spacings", "variants", "checks"} - data.keys()
     if missing:
         raise CaseError(f"{path.name} of {name}: missing {', '.join(sorted(missing))}")
-    variants = tuple(Variant(v["name"], v.get("set", {})) for v in data["variants"])
+    variants = tuple(
+        Variant(v["name"], v.get("set", {}), v.get("scene", "scene.toml")) for v in data["variants"]
+    )
     figures = tuple(data.get("figures", ()))
     case = Case(name, root / name / "scene.toml", data.get("reference", ""), figures, variants, data)
     if unknown := set(case.schemes) - set(SCHEMES):
@@ -150,6 +158,7 @@ def _checks(
             source=entry.get("source", ""),
             data=curves(entry["data"], where) if "data" in entry else None,
             conserved=entry.get("conserved", False),
+            repeats=entry.get("repeats"),
             window=(float(window[0]), float(window[1])) if window else None,
             statistic=entry.get("statistic"),
             unit=entry.get("unit", ""),

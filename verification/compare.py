@@ -44,11 +44,13 @@ class Check:
     """One check of one variant at one level, its choices by scheme, level and variant already made.
 
     What the result is held against is the one of these that is there: `data` (with `against` EVERY: `data`
-    against all variants), `against`, `value`, `conserved`, `from_time`; otherwise the reference.
+    against all variants), `against`, `value`, `conserved`, `from_time`, `repeats`; otherwise the reference.
     """
 
     quantity: str
-    at: str  # "particles", "wall:<probe>", "series", "run" (its attributes), "disc:<name>" or "derived"
+    # "particles", "wall:<probe>" (its last sample) or "wall:<probe>@<x>" (at x in m, over time),
+    # "point:<probe>", "series", "run" (its attributes), "disc:<name>" or "derived"
+    at: str
     field: str
     metric: str
     tolerance: float
@@ -66,6 +68,7 @@ class Check:
     source: str = ""  # of the value
     data: Curves | None = None  # published curves; more than one: the band between them
     conserved: bool = False  # every step's value against the one before
+    repeats: float | None = None  # s; against the values that much earlier
     window: tuple[float, float] | None = None  # s; of a time series, instead of one time
     statistic: str | None = None  # that stands for the window, or the wall; see case.STATISTICS
     unit: str = ""  # of an absolute error
@@ -167,6 +170,10 @@ def relative_peak(measured: Array, reference: Array) -> float:
     return _ratio(np.sqrt(np.mean(lengths[0] ** 2)), lengths[1].max())
 
 
+def relative_range(measured: Array, reference: Array) -> float:
+    return _ratio(np.sqrt(np.mean((measured - reference) ** 2)), np.ptp(reference))
+
+
 def relative_scalar(measured: Array, reference: Array) -> float:
     if measured.size != 1:
         raise DataError(f"relative_scalar compares single values, not {measured.size}")
@@ -185,6 +192,7 @@ METRICS: dict[str, Callable[[Array, Array], float]] = {
     "relative_l1": relative_l1,
     "relative_l2": relative_l2,
     "relative_peak": relative_peak,
+    "relative_range": relative_range,
     "relative_scalar": relative_scalar,
     "largest_deviation": largest_deviation,
     "largest_difference": largest_difference,  # absolute: needs a unit, or a scale of its own
@@ -193,6 +201,7 @@ SCALES = {
     "relative_l1": "sum of the reference's magnitudes",
     "relative_l2": "L2 norm of the reference",
     "relative_peak": "largest magnitude of the reference at that time (root mean square error over it)",
+    "relative_range": "the reference's largest value less its smallest (root mean square error over it)",
     "relative_scalar": "the reference's value",
     "largest_deviation": "largest magnitude of the reference",
 }

@@ -76,8 +76,9 @@ def execute(run: Run, options: argparse.Namespace, prefix: Sequence[str] = ()) -
     scene = run.case.scene(run.variant)
     outcome = Outcome(run, Result(folder / "result.h5", scene["output"]["end_time"], scene))
     settings = run.settings() + options.solver_set
-    arguments = ["run", str(run.case.scene_path)] + [part for item in settings for part in ("--set", item)]
-    content = options.solver.read_bytes() + run.case.scene_path.read_bytes() + "\0".join(arguments).encode()
+    scene_path = run.case.path(run.variant)
+    arguments = ["run", str(scene_path)] + [part for item in settings for part in ("--set", item)]
+    content = options.solver.read_bytes() + scene_path.read_bytes() + "\0".join(arguments).encode()
     digest = hashlib.sha256(content).hexdigest()
     stamp = folder / "command.sha256"
     if not (options.reuse and stamp.exists() and stamp.read_text() == digest):

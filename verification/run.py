@@ -90,6 +90,8 @@ def described(check: Check) -> str:
         return f"the run of {check.against}"
     if check.conserved:
         return "the step before"
+    if check.repeats:
+        return f"its own values {check.repeats:g} s before"
     return check.source if check.value else "its own final value"
 
 
@@ -106,7 +108,7 @@ class References:
         if key not in self._made:
             try:
                 cache = REPOSITORY / "build" / "reference"
-                self._made[key] = self._load(key[2], case.scene_path, dict(variant.set), cache)
+                self._made[key] = self._load(key[2], case.path(variant), dict(variant.set), cache)
             except Exception as error:
                 self._made[key] = error
         made = self._made[key]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,18 @@ from verification.derived import DERIVED
 from verification.measure import TIME_MATCH, Result
 
 Series = tuple[Array, Array]  # times (n,) and values (n,) or (n, 2)
-REDUCTIONS = {"min": np.min, "max": np.max, "mean": np.mean, "deviation": np.std}
+
+
+def peak(values: Array) -> float:
+    """Where the largest of evenly spaced samples is, by a parabola, as a share of their window."""
+    top = int(np.argmax(values))
+    if not 0 < top < len(values) - 1:
+        raise DataError("the largest value is at an end of the window")
+    before, at, after = values[top - 1 : top + 2]
+    return (top + 0.5 * (before - after) / (before - 2 * at + after)) / (len(values) - 1)
+
+
+REDUCTIONS = {"min": np.min, "max": np.max, "mean": np.mean, "deviation": np.std, "peak": peak}
 
 
 def error_of(
@@ -25,7 +37,8 @@ def error_of(
         raise DataError(f"nothing of variant {check.against} to compare with")
     if check.at == "particles":
         return measure(check, *_at_particles(check, result, reference))
-    pair = _along_wall if check.at.startswith("wall:") else _over_time
+    along = check.at.startswith("wall:") and "@" not in check.at  # else a place of the wall over time
+    pair = _along_wall if along else _over_time
     measured, truth = pair(check, result, reference, others)
     if check.statistic:
         measured, truth = (reduced(check, values) for values in (measured, truth))
@@ -82,6 +95,11 @@ def samples(result: Result, at: str, field: str) -> Series:
         return np.array([result.end_time]), np.array([result.attribute(field)])
     if at.startswith("disc:"):
         return result.disc(at.removeprefix("disc:"), field)
+    if at.startswith("wall:"):
+        probe, _, x = at.removeprefix("wall:").partition("@")
+        return result.wall_history(probe, field, float(x))
+    if at.startswith("point:"):
+        return result.point(at.removeprefix("point:"), field)
     if at == "derived":
         if field not in DERIVED:
             raise DataError(f"nothing derived is called {field}, only {', '.join(DERIVED)}")
@@ -104,10 +122,34 @@ def _over_time(
         return values, np.full_like(values, values[-1])
     if others:
         return values, _interpolated(samples(others[0], check.at, check.field), times)
+    if check.repeats:
+        return values, _interpolated(series, times - check.repeats)
     truth = trusted(reference, check.kind)
+    if check.at.startswith(("wall:", "point:")):
+        return values, at_probe(truth, result, check.at, check.field, times)
     if check.at.startswith("disc:"):
         return values, of_disc(truth, check.at.removeprefix("disc:"), check.field, times)
     return values, np.array([getattr(truth, check.field)(time) for time in times])
+
+
+def at_probe(reference: Reference, result: Result, at: str, field: str, times: Array) -> Array:
+    """A reference's field (n,) at times (n,), at a place of a wall or where the scene has a point probe."""
+    kind, _, place = at.partition(":")
+    if kind == "wall":
+        probe, _, x = place.partition("@")
+        wall = _probe(result, probe)["wall"]
+        values = [getattr(reference, f"wall_{field}")(wall, np.array([float(x)]), time) for time in times]
+    else:
+        x, y = _probe(result, place)["position"]
+        values = [getattr(reference, field)(np.array([x]), np.array([y]), time) for time in times]
+    return np.concatenate(values)
+
+
+def _probe(result: Result, name: str) -> Mapping[str, Any]:
+    found = [probe for probe in result.scene.get("probes", []) if probe["name"] == name]
+    if not found:
+        raise DataError(f"the scene has no probe {name}")
+    return found[0]
 
 
 def _published(check: Check, series: Series, ensemble: Sequence[Series]) -> tuple[Array, Array]:

@@ -219,7 +219,7 @@ def test_known_shortfalls_are_shown_but_do_not_decide(solver, tmp_path, monkeypa
 
 def test_every_case_is_complete():
     cases = load_cases()
-    assert [case.name for case in cases] == sorted([*FLOWS, *DISCS])
+    assert [case.name for case in cases] == sorted([*FLOWS, *DISCS, "wafer_feature"])
     for case in cases:
         assert (case.scene_path.parent / "README.md").exists()
         assert case.schemes == (SCHEMES if case.name in FLOWS else ("default",))

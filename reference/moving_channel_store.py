@@ -1,0 +1,86 @@
+"""Pressures of moving_channel.py stored in data/: a CSV under a header with the scene and a checksum.
+
+A row is what (wall, field or point), the phase in periods, and pressures in Pa: of the wall at the nodes in
+x, of a field at those in x and, fastest, eta, of all points. The nodes are the Gauss-Lobatto points, degree
+4, of the header's mesh lines.
+"""
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from reference.base import Array, ReferenceError, canonical
+
+HEAD = (
+    "# Pressure in Pa over one period by reference/moving_channel.py; nothing published. SI units.",
+    "# Made by `python -m reference.moving_channel`; rows: reference/moving_channel_store.py.",
+)
+COLUMNS = "what,phase,pressure_pa..."
+RUN = ("x_lines", "eta_lines", "points", "sizes", "changes", "seconds")
+DIGITS = 5
+
+
+@dataclass(frozen=True)
+class Stored:
+    identity: str  # of the scene's flow, canonical
+    arrays: dict[str, Array]
+    digest: str  # of the file
+
+
+def _rows(arrays: dict[str, Array]) -> Iterator[str]:
+    tables = {"wall": arrays["wall"], "field": arrays["fields"], "point": arrays["at_points"].T}
+    for what, table in tables.items():
+        for number, row in enumerate(table):
+            values = ",".join(f"{value:.{DIGITS}g}" for value in row.ravel())
+            if values:
+                yield f"{what},{number / len(table):g},{values}\n"
+
+
+def write_stored(file: Path, problem: dict[str, object], arrays: dict[str, Array]) -> None:
+    """Raises ReferenceError where the file cannot be written."""
+    body = "".join(_rows(arrays))
+    header = {
+        "problem": problem,
+        "run": {key: arrays[key].tolist() for key in RUN},
+        "sha256": hashlib.sha256(body.encode()).hexdigest(),
+    }
+    head = [*HEAD, *(f"# {key}: {json.dumps(value)}" for key, value in header.items()), COLUMNS]
+    part = file.with_name(f"{file.name}.{os.getpid()}.part")
+    try:
+        try:
+            part.write_text("\n".join(head) + "\n" + body, encoding="utf-8")
+            part.replace(file)
+        finally:
+            part.unlink(missing_ok=True)
+    except OSError as error:
+        raise ReferenceError(f"{file}: the reference cannot be stored: {error}") from error
+
+
+def read_stored(file: Path) -> Stored:
+    """Raises ReferenceError for a file that was changed."""
+    try:
+        text = file.read_text(encoding="utf-8")
+        head, body = text.split(f"{COLUMNS}\n")
+        lines = [line.removeprefix("# ").split(": ", 1) for line in head.splitlines()[len(HEAD) :]]
+        header = {key: json.loads(value) for key, value in lines}
+        if header["sha256"] != hashlib.sha256(body.encode()).hexdigest():
+            raise ValueError("its rows do not have the checksum of its header")
+        arrays = {key: np.array(header["run"][key], dtype=float) for key in RUN}
+        rows = [line.split(",") for line in body.splitlines()]
+        tables = {what: [row[2:] for row in rows if row[0] == what] for what in ("wall", "field", "point")}
+        arrays["wall"] = np.array(tables["wall"], dtype=float)
+        arrays["fields"] = np.array(tables["field"], dtype=float).reshape(
+            len(tables["field"]), arrays["wall"].shape[1], -1
+        )
+        arrays["points"] = arrays["points"].reshape(-1, 2)
+        arrays["at_points"] = np.array(tables["point"], dtype=float).T.reshape(len(arrays["points"]), -1)
+        if not all(np.isfinite(array).all() for array in arrays.values()):
+            raise ValueError("it has values that are not finite")
+    except (KeyError, OSError, ValueError) as error:
+        raise ReferenceError(f"{file}: not a stored pressure ({error}); make it again") from error
+    return Stored(canonical(header["problem"]), arrays, hashlib.sha256(text.encode()).hexdigest())
