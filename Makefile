@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test test-kill reference verify report faults baseline bench bench-peers counts figures test-slurm lint sanitize fuzz flows format docs clean
+.PHONY: help setup configure build test test-kill reference verify report faults claims baseline bench bench-peers counts figures test-slurm lint sanitize fuzz flows format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -52,6 +52,9 @@ report: setup ## Write the report again from the last results (build/verify/repo
 
 faults: build ## Plant each known fault and show that the named checks fail
 	@$(PYTHON) -m verification.faults
+
+claims: setup ## Write verification/claims.md, the ledger of the paper's claims, from the last results
+	@$(PYTHON) -m verification.claims
 
 baseline: setup ## Accept the last results as verification/baseline.json, for review in a commit
 	@$(PYTHON) -m verification.baseline --accept
