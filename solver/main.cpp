@@ -1,5 +1,6 @@
-// The command line: `slurry run|check|info SCENE`, `slurry help scene`, `slurry bench`.
+// The command line: `slurry run|check|info|converge SCENE`, `slurry help scene`, `slurry bench`.
 #include "solver/bench/bench.hpp"
+#include "solver/converge/report.hpp"
 #include "solver/discs/motion.hpp"
 #include "solver/discs/placement.hpp"
 #include "solver/geometry/geometry_error.hpp"
@@ -21,6 +22,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <new>
 #include <optional>
 #include <string>
@@ -43,6 +45,8 @@ struct Arguments {
     bool markdown = false;
     std::filesystem::path json;
     bool quick = false;
+    StudyOptions study;
+    double error = 0.01;
 };
 
 void print(std::string_view text) {
@@ -52,14 +56,25 @@ void print(std::string_view text) {
                                       errno == 0 ? "" : std::strerror(errno)));
 }
 
-Scene scene_of(const Arguments& arguments) {
+std::vector<std::string> overrides_of(const Arguments& arguments) {
     std::vector<std::string> overrides = arguments.overrides;
     if (!arguments.spacing.empty())
         overrides.push_back("numerics.particle_spacing=" + arguments.spacing);
-    Scene scene = read_scene(arguments.scene, overrides);
+    return overrides;
+}
+
+Scene scene_of(const Arguments& arguments) {
+    Scene scene = read_scene(arguments.scene, overrides_of(arguments));
     for (const std::string& warning : scene.warnings)
         std::cerr << "warning: " << warning << '\n';
     return scene;
+}
+
+void write_whole(const std::filesystem::path& path, std::string_view text) {
+    PartialFile file(path);
+    file.write(text);
+    file.synchronise();
+    file.commit();
 }
 
 void run(const Arguments& arguments) {
@@ -82,6 +97,26 @@ void check(const Arguments& arguments) {
 
 void info(const Arguments& arguments) {
     print(describe_scene(scene_of(arguments)));
+}
+
+void converge(const Arguments& arguments) {
+    StudyOptions options = arguments.study;
+    if (options.folder.empty()) {
+        options.folder = arguments.scene.stem() += ".converge";
+    }
+    options.threads = arguments.run.threads;
+    options.quiet = arguments.run.quiet;
+    static_cast<void>(scene_of(arguments)); // warns once, not at every spacing
+    const SceneReader read = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> overrides = overrides_of(arguments);
+        overrides.insert(overrides.end(), more.begin(), more.end());
+        return read_scene(arguments.scene, overrides);
+    };
+    const Study study = run_study(read, options);
+    const std::vector<Plan> plans{plan_for(study, arguments.error)};
+    write_whole(options.folder / "convergence.json", study_json(study, plans));
+    write_whole(options.folder / "convergence.svg", study_svg(study));
+    print(study_text(study, plans));
 }
 
 void bench(const Arguments& arguments) {
@@ -112,6 +147,40 @@ CLI::App* add_scene_command(CLI::App& app, const char* name, const char* descrip
     return command;
 }
 
+void add_run_options(CLI::App& command, RunOptions& options) {
+    command.add_option("--threads", options.threads, "Number of threads; the answer does not depend on it")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_flag("--quiet", options.quiet, "No progress and no summary");
+}
+
+void add_converge_command(CLI::App& app, Arguments& arguments) {
+    CLI::App* command = add_scene_command(
+        app, "converge", "Run a scene at several spacings: an error band for each quantity", arguments);
+    command
+        ->add_option("--out", arguments.study.folder,
+                     "Folder for convergence.json, convergence.svg and the runs (SCENE's stem + .converge)")
+        ->type_name("DIR");
+    command
+        ->add_option("--spacings", arguments.study.spacings,
+                     "How many: the scene's, and coarser ones by sqrt(2) each")
+        ->check(CLI::Range(3, 9))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        ->add_option("--error", arguments.error,
+                     "Wanted band, of the largest of each kind: which spacing and time does it need?")
+        ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"%", 0.01}}))
+        ->check(CLI::Range(1e-9, 1.0))
+        ->type_name("SHARE")
+        ->capture_default_str();
+    command->add_flag("!--fixed-sound-speed", arguments.study.vary_sound_speed,
+                      "Leave out the run with twice the sound speed, and its share of the bands");
+    add_run_options(*command, arguments.run);
+    command->callback([&] { converge(arguments); });
+}
+
 void add_bench_command(CLI::App& app, Arguments& arguments) {
     CLI::App* command = app.add_subcommand("bench", "Measure this machine, and the pair loops on it");
     command->add_option("--json", arguments.json, "Write the figures to this file, too")->type_name("FILE");
@@ -128,13 +197,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                      "Folder for result.h5 and result.xdmf, made when missing (SCENE's stem + .out)")
         ->type_name("DIR");
     arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    runner
-        ->add_option("--threads", arguments.run.threads,
-                     "Number of threads; the answer does not depend on it")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N")
-        ->capture_default_str();
-    runner->add_flag("--quiet", arguments.run.quiet, "No progress and no summary");
+    add_run_options(*runner, arguments.run);
     runner->callback([&] { run(arguments); });
     add_scene_command(app, "check", "Check a scene and its geometry", arguments)->callback([&] {
         check(arguments);
@@ -142,6 +205,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
     add_scene_command(app, "info", "Tell what a run would do, and why", arguments)->callback([&] {
         info(arguments);
     });
+    add_converge_command(app, arguments);
     CLI::App* helper = app.add_subcommand("help", "Describe the scene file");
     helper->add_option("TOPIC", arguments.topic, "scene")->required()->check(CLI::IsMember({"scene"}));
     helper->add_flag("--markdown", arguments.markdown, "As Markdown, for the documentation");

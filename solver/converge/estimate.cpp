@@ -1,0 +1,121 @@
+#include "solver/converge/estimate.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace slurry {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double safety = 1.25;         // of an error whose order was observed [roache1994]
+constexpr double scatter_safety = 2;    // of differences without an order
+constexpr double standard_errors = 2;   // in a band: 95 % of normal noise
+constexpr double scheme_order = 2;      // the most that is ever extrapolated with
+constexpr double least_order = 0.5;     // slower extrapolations go too far to be believed [eca2014]
+constexpr double most_order = 6;        // of the search
+constexpr double growth_of_scatter = 2; // from one difference to the next: more is divergence
+
+struct Fit {
+    double order = nan;
+    double limit = nan;
+    ArrayXd residual;
+};
+
+Fit fit_with(double order, const ArrayXd& spacing, const ArrayXd& value) {
+    Eigen::MatrixXd terms(spacing.size(), 2);
+    terms.col(0).setOnes();
+    terms.col(1) = spacing.matrix().unaryExpr([order](double h) { return std::pow(h, order); });
+    const Eigen::VectorXd solution = terms.colPivHouseholderQr().solve(value.matrix());
+    return {order, solution(0), (value.matrix() - terms * solution).array()};
+}
+
+// Over orders of both signs: a negative one is what differences that grow look like.
+Fit best_fit(const ArrayXd& spacing, const ArrayXd& value) {
+    constexpr double step = 0.02;
+    Fit best;
+    double least = std::numeric_limits<double>::infinity();
+    for (double order = -2; order <= most_order + step / 2; order += step) {
+        if (std::abs(order) > step / 2) {
+            Fit fit = fit_with(order, spacing, value);
+            if (const double squares = fit.residual.square().sum(); squares < least) {
+                least = squares;
+                best = std::move(fit);
+            }
+        }
+    }
+    return best;
+}
+
+void require_sense(std::span<const GridValue> values) {
+    if (values.size() < 3) {
+        throw std::invalid_argument("an error band needs three spacings or more");
+    }
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        if (!std::isfinite(values[k].value) || !std::isfinite(values[k].noise) || !(values[k].spacing > 0) ||
+            (k > 0 && !(values[k].spacing < values[k - 1].spacing))) {
+            throw std::invalid_argument("an error band needs finite values at spacings that fall");
+        }
+    }
+}
+
+// Whether the data are near enough to a curve for its order to mean something.
+bool regular(const ArrayXd& steps, const Fit& fit, double range) {
+    if (steps.size() == 2) {
+        return steps(0) * steps(1) > 0;
+    }
+    const double deviation = std::sqrt(fit.residual.square().sum() / static_cast<double>(steps.size() - 2));
+    return deviation < range / static_cast<double>(steps.size());
+}
+
+Estimate without_order(Verdict verdict, double floor) {
+    return {verdict, nan, nan, nan, 0, floor};
+}
+
+} // namespace
+
+Estimate estimate_error(std::span<const GridValue> values) {
+    require_sense(values);
+    const auto count = static_cast<Index>(values.size());
+    ArrayXd spacing(count), value(count), noise(count);
+    for (Index k = 0; k < count; ++k) {
+        const GridValue& at = values[static_cast<std::size_t>(k)];
+        spacing(k) = at.spacing / values.back().spacing; // so that the finest is 1
+        value(k) = at.value;
+        noise(k) = at.noise;
+    }
+    const double finest = value(count - 1);
+    const double noise_band = standard_errors * std::sqrt(noise.square().mean());
+    const double range = value.maxCoeff() - value.minCoeff();
+    if (range <= noise_band) {
+        return without_order(Verdict::settled, range + noise_band);
+    }
+    const ArrayXd steps = value.tail(count - 1) - value.head(count - 1);
+    const Fit best = best_fit(spacing, value);
+    const bool on_curve = regular(steps, best, range);
+    if (on_curve && best.order >= least_order) {
+        const double order = std::min(best.order, scheme_order);
+        const Fit fit = best.order > order ? fit_with(order, spacing, value) : best;
+        return {Verdict::converging,
+                best.order,
+                order,
+                fit.limit,
+                safety * std::abs(finest - fit.limit),
+                noise_band + fit.residual.abs().maxCoeff()};
+    }
+    const double last = std::abs(steps(count - 2));
+    const double before = steps.head(count - 2).abs().maxCoeff();
+    const bool grows = on_curve ? best.order < 0 : last > growth_of_scatter * before;
+    if (grows && last > noise_band) {
+        return without_order(Verdict::diverging, nan);
+    }
+    return without_order(Verdict::scattered, scatter_safety * range + noise_band);
+}
+
+} // namespace slurry
