@@ -20,7 +20,7 @@ constexpr double standard_errors = 2;   // in a band: 95 % of normal noise
 constexpr double scheme_order = 2;      // the most that is ever extrapolated with
 constexpr double least_order = 0.5;     // slower extrapolations go too far to be believed [eca2014]
 constexpr double most_order = 6;        // of the search
-constexpr double growth_of_scatter = 2; // from one difference to the next: more is divergence
+constexpr double growth_of_scatter = 4; // from one difference to the next: more is divergence
 
 struct Fit {
     double order = nan;

@@ -52,17 +52,21 @@ std::string row_text(const Assessment& quantity) {
         verdict_name(quantity.spacing.verdict), taken);
 }
 
-std::string plan_text(const Plan& plan) {
+// Beyond this the law that was seen is not known to hold.
+constexpr double farthest_extrapolation = 8;
+
+std::string plan_text(const Study& study, const Plan& plan) {
     std::string text = fmt::format("a band of {:.3g} % ", 100 * plan.error);
     if (plan.needs.spacing > 0) {
-        text +=
-            fmt::format("needs a spacing of {:.3g} m{}: about {:.3g} particles, {:.3g} steps, {:.3g} s of "
-                        "wall time (strictest: {})\n",
-                        plan.needs.spacing,
-                        plan.needs.sound_speed_factor > 1
-                            ? fmt::format(" and {:.2g} times the sound speed", plan.needs.sound_speed_factor)
-                            : "",
-                        plan.particles, plan.steps, plan.wall_seconds, plan.strictest);
+        const double factor = plan.needs.sound_speed_factor;
+        text += fmt::format(
+            "needs a spacing of {:.3g} m{}: about {:.3g} particles, {:.3g} steps, {:.3g} s of "
+            "wall time (strictest: {})\n",
+            plan.needs.spacing, factor > 1 ? fmt::format(" and {:.3g} times the sound speed", factor) : "",
+            plan.particles, plan.steps, plan.wall_seconds, plan.strictest);
+        if (plan.needs.spacing * farthest_extrapolation < study.runs.back().scene.numerics.particle_spacing) {
+            text += "  far beyond what was run: believe it after a study with a smaller --spacing\n";
+        }
     } else {
         text += "is not known to be reached by any spacing\n";
     }
@@ -158,7 +162,7 @@ std::string study_text(const Study& study, std::span<const Plan> plans) {
         text += fmt::format("without a value in some run: {}\n", fmt::join(study.unreadable, ", "));
     }
     for (const Plan& plan : plans) {
-        text += plan_text(plan);
+        text += plan_text(study, plan);
     }
     return text;
 }

@@ -4,6 +4,7 @@
 #include "solver/geometry/geometry_error.hpp"
 #include "solver/geometry/region.hpp"
 #include "solver/particles/run_error.hpp"
+#include "solver/scene/read_scene.hpp"
 #include "solver/time/simulation.hpp"
 
 #include <fmt/format.h>
@@ -26,27 +27,33 @@ constexpr double whole_of_difference = stiffening * stiffening / (stiffening * s
 constexpr double safety = 1.25;
 constexpr double standard_errors = 2;
 
+// The scene as the study runs it; what is wrong with a coarse one is known before the first run.
 Scene scene_at(const SceneReader& read, double spacing, double sound_speed_factor) {
-    std::vector<std::string> overrides{fmt::format("numerics.particle_spacing={:.10e}", spacing)};
-    const Scene as_written = read(overrides);
-    if (as_written.output.probe_samples < fewest_probe_samples) {
-        overrides.push_back(fmt::format("output.probe_samples={}", fewest_probe_samples));
-    }
-    if (as_written.output.series_samples < fewest_series_samples) {
-        overrides.push_back(fmt::format("output.series_samples={}", fewest_series_samples));
-    }
-    overrides.push_back(
-        fmt::format("numerics.sound_speed={:.10e}", sound_speed_factor * as_written.numerics.sound_speed));
-    Scene scene = read(overrides);
+    const auto place = [&](const std::exception& error) {
+        return fmt::format(
+            "at {:.4g} m, the study's coarser spacings being multiples of the scene's: {}; choose a "
+            "smaller --spacing",
+            spacing, error.what());
+    };
     try {
-        const Region region(scene); // what is wrong with a coarse one is known before the first run
+        std::vector<std::string> overrides{fmt::format("numerics.particle_spacing={:.10e}", spacing)};
+        const Scene as_written = read(overrides);
+        if (as_written.output.probe_samples < fewest_probe_samples) {
+            overrides.push_back(fmt::format("output.probe_samples={}", fewest_probe_samples));
+        }
+        if (as_written.output.series_samples < fewest_series_samples) {
+            overrides.push_back(fmt::format("output.series_samples={}", fewest_series_samples));
+        }
+        overrides.push_back(fmt::format("numerics.sound_speed={:.10e}",
+                                        sound_speed_factor * as_written.numerics.sound_speed));
+        Scene scene = read(overrides);
+        static_cast<void>(Region(scene));
+        return scene;
     } catch (const GeometryError& error) {
-        throw GeometryError(
-            fmt::format("at the study's spacing of {:.4g} m: {}; its spacings are multiples of "
-                        "the scene's, so choose a smaller --spacing",
-                        spacing, error.what()));
+        throw GeometryError(place(error));
+    } catch (const SceneError& error) {
+        throw SceneError(place(error));
     }
-    return scene;
 }
 
 StudyRun run_one(Scene scene, const StudyOptions& options, const std::string& which) {
