@@ -181,6 +181,8 @@ void add_converge_command(CLI::App& app, Arguments& arguments) {
         ->check(CLI::Range(1e-9, 1.0))
         ->type_name("SHARE")
         ->capture_default_str();
+    command->add_flag("--reuse", arguments.study.reuse,
+                      "Keep runs of the same scenes that the folder holds already");
     command->add_flag("!--fixed-sound-speed", arguments.study.vary_sound_speed,
                       "Leave out the run with twice the sound speed, and its share of the bands");
     add_run_options(*command, arguments.run);

@@ -26,8 +26,9 @@ import numpy as np
 
 from reference import Reference, ReferenceError
 from reference.scene import override
-from verification.case import CaseError, load_case, toml_value
+from verification.case import CaseError, Variant, load_case, toml_value
 from verification.compare import Array, DataError
+from verification.markers import replace_between
 from verification.results import commit
 from verification.run import REPOSITORY, References
 
@@ -101,6 +102,18 @@ def study_scene(study: Mapping[str, Any], probes: Mapping[str, Any]) -> str:
     return case.scene_path.read_text() + tables
 
 
+def call(study: Mapping[str, Any], variant: Variant, folder: Path, options: argparse.Namespace) -> None:
+    """Lets the solver make convergence.json in the folder; raises DataError with what it says if it fails."""
+    command = [str(options.solver), "converge", str(folder / "scene.toml"), "--quiet", "--out", str(folder)]
+    command += ["--spacing", repr(study["spacing"]), "--spacings", str(study.get("spacings", 3))]
+    command += ["--threads", str(options.threads), *(["--reuse"] if options.reuse else [])]
+    for address, value in variant.set.items():
+        command += ["--set", f"{address}={toml_value(value)}"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise DataError(f"{folder.name}: exit status {done.returncode}: {done.stderr.strip()}")
+
+
 def run_study(
     study: Mapping[str, Any], probes: Mapping[str, Any], options: argparse.Namespace, references: References
 ) -> list[dict[str, Any]]:
@@ -114,20 +127,10 @@ def run_study(
     scene = tomllib.loads(text)
     for address, value in variant.set.items():
         override(scene, address, value, folder / "scene.toml")
-    result = folder / "convergence.json"
-    if not (options.reuse and result.exists()):
-        result.unlink(missing_ok=True)
-        command = [str(options.solver), "converge", str(folder / "scene.toml"), "--quiet"]
-        command += ["--spacing", repr(study["spacing"]), "--spacings", str(study.get("spacings", 3))]
-        command += ["--threads", str(options.threads), "--out", str(folder)]
-        for address, value in variant.set.items():
-            command += ["--set", f"{address}={toml_value(value)}"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise DataError(f"{label}: exit status {done.returncode}: {done.stderr.strip()}")
+    call(study, variant, folder, options)
     reference = references.of(case, variant)
     rows = []
-    for quantity in json.loads(result.read_text())["quantities"]:
+    for quantity in json.loads((folder / "convergence.json").read_text())["quantities"]:
         truth = truth_of(reference, scene, folder, quantity["place"], quantity["quantity"])
         if truth is not None:
             row = judge(quantity, truth, scene["output"]["end_time"])
@@ -163,6 +166,21 @@ def print_rows(rows: Sequence[Mapping[str, Any]]) -> None:
                 print(f"  {what}: {error:.3g} % off, band {band:.3g} %")
 
 
+def table(rows: Sequence[Mapping[str, Any]]) -> str:
+    """A line for each study and one for all, as Markdown."""
+    studies = dict.fromkeys(row["study"] for row in rows)
+    groups = [(study, [row for row in rows if row["study"] == study]) for study in studies]
+    lines = [
+        "| study (case, variant, finest spacing in m) | bands | covering | refused |",
+        "|---|---|---|---|",
+    ]
+    for name, mine in [*groups, ("all", rows)]:
+        found = summary(mine)
+        refused = found["quantities"] - found["bands"]
+        lines.append(f"| {name} | {found['bands']} | {found['covered']} | {refused} |")
+    return "\n".join(lines)
+
+
 def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m verification.converge", description=__doc__.splitlines()[0]
@@ -171,7 +189,8 @@ def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--out", type=Path, default=REPOSITORY / "build" / "converge")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--case", action="append", help="only this case (repeatable)")
-    parser.add_argument("--reuse", action="store_true", help="keep studies that are there")
+    parser.add_argument("--page", type=Path, help="write the table between this page's markers, too")
+    parser.add_argument("--reuse", action="store_true", help="keep runs of the same scenes")
     return parser.parse_args(argv)
 
 
@@ -192,6 +211,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     found = summary(rows)
     stored = {"commit": commit(), "summary": found, "rows": rows}
     (options.out / RESULTS).write_text(json.dumps(stored, indent=1) + "\n")
+    if options.page:
+        replace_between(options.page, "bands", table(rows))
     print(
         f"{found['covered']} of {found['bands']} bands cover the true error: {100 * found['coverage']:.1f} %"
     )

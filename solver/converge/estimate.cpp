@@ -1,6 +1,6 @@
 #include "solver/converge/estimate.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -29,16 +29,16 @@ struct Fit {
 };
 
 Fit fit_with(double order, const ArrayXd& spacing, const ArrayXd& value) {
-    Eigen::MatrixXd terms(spacing.size(), 2);
-    terms.col(0).setOnes();
-    terms.col(1) = spacing.matrix().unaryExpr([order](double h) { return std::pow(h, order); });
-    const Eigen::VectorXd solution = terms.colPivHouseholderQr().solve(value.matrix());
-    return {order, solution(0), (value.matrix() - terms * solution).array()};
+    const ArrayXd power = spacing.unaryExpr([order](double h) { return std::pow(h, order); });
+    const ArrayXd from_mean = power - power.mean();
+    const double coefficient = (from_mean * value).sum() / from_mean.square().sum();
+    const double limit = value.mean() - coefficient * power.mean();
+    return {order, limit, value - limit - coefficient * power};
 }
 
 // Over orders of both signs: a negative one is what differences that grow look like.
 Fit best_fit(const ArrayXd& spacing, const ArrayXd& value) {
-    constexpr double step = 0.02;
+    constexpr double step = 0.01;
     Fit best;
     double least = std::numeric_limits<double>::infinity();
     for (double order = -2; order <= most_order + step / 2; order += step) {
@@ -63,6 +63,20 @@ void require_sense(std::span<const GridValue> values) {
             throw std::invalid_argument("an error band needs finite values at spacings that fall");
         }
     }
+}
+
+// How far the best order moves when each value moves by its noise. Three values an order apart in noise fix
+// it to within one, and an order that is found too high makes the extrapolation too short.
+double order_deviation(const ArrayXd& spacing, const ArrayXd& value, const ArrayXd& noise) {
+    double squares = 0;
+    for (Index k = 0; k < value.size(); ++k) {
+        ArrayXd moved = value;
+        moved(k) += noise(k);
+        const double above = best_fit(spacing, moved).order;
+        moved(k) -= 2 * noise(k);
+        squares += std::pow((above - best_fit(spacing, moved).order) / 2, 2);
+    }
+    return std::sqrt(squares);
 }
 
 // Whether the data are near enough to a curve for its order to mean something.
@@ -101,18 +115,21 @@ Estimate estimate_error(std::span<const GridValue> values) {
     const bool on_curve = regular(steps, best, range);
     if (on_curve && best.order >= least_order) {
         const double order = std::min(best.order, scheme_order);
-        const Fit fit = best.order > order ? fit_with(order, spacing, value) : best;
+        const Fit fit = fit_with(order, spacing, value);
+        const double low = std::max(least_order, order - order_deviation(spacing, value, noise));
+        const Fit slow = fit_with(low, spacing, value);
+        const auto error = [&](const Fit& of) { return safety * std::abs(finest - of.limit); };
         return {Verdict::converging,
                 best.order,
                 order,
                 fit.limit,
-                safety * std::abs(finest - fit.limit),
-                noise_band + fit.residual.abs().maxCoeff()};
+                std::max(error(fit), error(slow)),
+                noise_band + std::max(fit.residual.abs().maxCoeff(), slow.residual.abs().maxCoeff())};
     }
     const double last = std::abs(steps(count - 2));
     const double before = steps.head(count - 2).abs().maxCoeff();
     const bool grows = on_curve ? best.order < 0 : last > growth_of_scatter * before;
-    if (grows && last > noise_band) {
+    if (grows && last > 2 * noise_band) {
         return without_order(Verdict::diverging, nan);
     }
     return without_order(Verdict::scattered, scatter_safety * range + noise_band);

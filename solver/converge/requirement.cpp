@@ -7,6 +7,16 @@
 
 namespace slurry {
 
+namespace {
+
+// At no spacing as large as the error that is wanted: noise about nothing, whose order need not be known.
+bool negligible(const Assessment& quantity, double error) {
+    return std::ranges::all_of(quantity.values,
+                               [&](const GridValue& at) { return std::abs(at.value) <= error; });
+}
+
+} // namespace
+
 Requirement requirement(const Assessment& quantity, double error) {
     const Estimate& estimate = quantity.spacing;
     Requirement needs;
@@ -34,6 +44,9 @@ Plan plan_for(const Study& study, double error) {
     Plan plan{.error = error, .needs = {}, .strictest = {}, .out_of_reach = {}};
     for (const Assessment& quantity : study.quantities) {
         const std::string name = quantity.place + " " + quantity.name;
+        if (negligible(quantity, error * quantity.scale)) {
+            continue;
+        }
         const Requirement needs = requirement(quantity, error * quantity.scale);
         if (needs.spacing <= 0) {
             plan.out_of_reach.push_back(name);

@@ -47,8 +47,6 @@ std::vector<double> study_spacings(const Domain& domain, double finest, int coun
     for (int k = count - 1; k >= 0; --k) {
         spacings.push_back(admissible_spacing(domain, finest * std::pow(std::numbers::sqrt2, k)));
     }
-    const auto same = [](double a, double b) { return std::abs(a / b - 1) < 1e-6; };
-    spacings.erase(std::unique(spacings.begin(), spacings.end(), same), spacings.end());
     return spacings;
 }
 

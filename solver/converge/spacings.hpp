@@ -12,7 +12,7 @@ namespace slurry {
 [[nodiscard]] double admissible_spacing(const Domain& domain, double wanted);
 
 // `count` spacings, coarsest first, each about sqrt(2) times the next; the last is the admissible one nearest
-// to `finest`. Fewer when the domain has no more: two of them are the same.
+// to `finest`.
 [[nodiscard]] std::vector<double> study_spacings(const Domain& domain, double finest, int count);
 
 } // namespace slurry

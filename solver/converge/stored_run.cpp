@@ -172,6 +172,10 @@ class Collector {
 
 } // namespace
 
+bool is_result_of(const std::filesystem::path& result, const Scene& scene) {
+    return std::filesystem::exists(result) && Hdf5Reader(result).text("/", "scene") == scene.resolved_text;
+}
+
 StoredRun read_run(const std::filesystem::path& result, const Scene& scene) {
     const Hdf5Reader file(result);
     const auto of_run = [&](const char* name) { return file.attribute("/run", name); };

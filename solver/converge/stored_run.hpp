@@ -36,6 +36,9 @@ struct StoredRun {
     std::vector<Quantity> quantities;
 };
 
+// Whether there is a result.h5 of a run of this very scene.
+[[nodiscard]] bool is_result_of(const std::filesystem::path& result, const Scene& scene);
+
 // Reads the result.h5 of a run of the scene. Pressures are what exceeds the fluid's mean (an incompressible
 // pressure has no zero of its own), and a wall's largest and smallest are told from the wall's mean. Throws
 // OutputError.

@@ -19,6 +19,7 @@ struct StudyOptions {
     int threads = 1;
     bool quiet = false;
     bool vary_sound_speed = true;
+    bool reuse = false; // runs of the same scenes that the folder holds already
 };
 
 struct StudyRun {

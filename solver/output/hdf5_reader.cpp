@@ -51,6 +51,21 @@ std::vector<double> Hdf5Reader::values(const std::string& dataset) const {
     return table(dataset).values;
 }
 
+std::string Hdf5Reader::text(const std::string& object, const std::string& attribute) const {
+    const std::string what = fmt::format("{} of {}", attribute, object);
+    const Hdf5Handle stored =
+        open(H5Aopen_by_name(file_.get(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+             H5Aclose, what);
+    const Hdf5Handle type = open(H5Aget_type(stored.get()), H5Tclose, what);
+    char* characters = nullptr;
+    if (H5Tis_variable_str(type.get()) <= 0 || H5Aread(stored.get(), type.get(), &characters) < 0) {
+        throw OutputError(fmt::format("{}: cannot read {}: {}", path_.string(), what, hdf5_reason()));
+    }
+    std::string text = characters == nullptr ? "" : characters;
+    H5free_memory(characters);
+    return text;
+}
+
 double Hdf5Reader::attribute(const std::string& object, const std::string& name) const {
     const std::string what = fmt::format("{} of {}", name, object);
     const Hdf5Handle attribute = open(

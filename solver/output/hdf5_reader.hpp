@@ -25,6 +25,7 @@ class Hdf5Reader {
     // A dataset [n] or [n, m] of numbers.
     [[nodiscard]] StoredTable table(const std::string& dataset) const;
     [[nodiscard]] std::vector<double> values(const std::string& dataset) const;
+    [[nodiscard]] std::string text(const std::string& object, const std::string& attribute) const;
     [[nodiscard]] double attribute(const std::string& object, const std::string& name) const;
 
   private:

@@ -51,6 +51,15 @@ def test_the_runs_can_be_read_like_any_other(study: tuple[Path, str]) -> None:
     assert len(list(study[0].glob("*/result.h5"))) == 4
 
 
+def test_runs_of_the_same_scene_are_kept_when_asked_for(study: tuple[Path, str]) -> None:
+    files = {path: path.stat().st_mtime_ns for path in study[0].glob("*/result.h5")}
+    words = ("converge", "scene.toml", "--spacing", "5e-7", "--quiet", "--reuse")
+    assert slurry(*words, cwd=study[0].parent).returncode == 0
+    assert files == {path: path.stat().st_mtime_ns for path in files}
+    assert slurry(*words, "--set", "output.end_time=9e-7", cwd=study[0].parent).returncode == 0
+    assert not any(stamp == path.stat().st_mtime_ns for path, stamp in files.items())
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -53,17 +53,20 @@ TEST(Estimate, AnOrderAboveTheSchemesIsNotExtrapolatedWith) {
 }
 
 TEST(Estimate, TheBandCoversTheTruthUnderNoise) {
-    for (const int count : {3, 4, 6}) {
+    for (const int count : {3, 5}) {
         for (const double order : {1.0, 1.5, 2.0}) {
-            int covered = 0, banded = 0;
-            for (unsigned seed = 0; seed < 400; ++seed) {
-                const auto values = manufactured(7, 0.05, order, count, 0.01, seed);
-                const Estimate estimate = estimate_error(values);
-                banded += estimate.verdict != Verdict::diverging ? 1 : 0;
-                covered += true_error(values, 7) <= estimate.band() ? 1 : 0; // no band (NaN) covers nothing
+            for (const double noise : {0.001, 0.003, 0.01}) { // the error is 0.05
+                constexpr int samples = 60;
+                int covered = 0, banded = 0;
+                for (unsigned seed = 0; seed < samples; ++seed) {
+                    const auto values = manufactured(7, 0.05, order, count, noise, seed);
+                    const Estimate estimate = estimate_error(values);
+                    banded += estimate.verdict != Verdict::diverging ? 1 : 0;
+                    covered += true_error(values, 7) <= estimate.band() ? 1 : 0; // NaN covers nothing
+                }
+                EXPECT_GE(covered, 0.9 * banded) << count << " spacings, order " << order << ", " << noise;
+                EXPECT_GE(banded, 0.7 * samples) << count << " spacings, order " << order << ", " << noise;
             }
-            EXPECT_GE(covered, 0.9 * banded) << count << " spacings, order " << order;
-            EXPECT_GE(banded, 0.9 * 400) << count << " spacings, order " << order;
         }
     }
 }

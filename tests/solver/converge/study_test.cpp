@@ -134,6 +134,11 @@ TEST(Requirement, ScatterHasNoSpacingThatLowersIt) {
     EXPECT_EQ(requirement(study.quantities.at(0), 10).spacing, 1);
 }
 
+TEST(Requirement, NoiseAboutNothingIsNotAskedFor) {
+    const Laws noise{"wafer", "shear_mean", Kind::shear, [](double h, double) { return 1e-3 / (h * h); }};
+    EXPECT_TRUE(plan_for(fake_study({second_order, noise}), 0.01).out_of_reach.empty());
+}
+
 TEST(Figure, HasAPanelForEachQuantityAndNothingThatIsNoNumber) {
     const Laws diverging{"point", "pressure", Kind::pressure, [](double h, double) { return 1 / (h * h); }};
     const Laws zero{"point", "velocity_x", Kind::velocity, [](double, double) { return 0.0; }};
