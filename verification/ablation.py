@@ -1,8 +1,8 @@
 """Errors of the default scheme with one key changed at a time: the table of verification/accuracy.md.
 
 `python -m verification.ablation` runs the changes of verification/bench/plan.toml and of
-verification/ablation.toml on the cases of the latter. It keeps each case's errors in the output folder once it
-is through, and writes the table between the markers of accuracy.md; `--table-only` writes it again from
+verification/ablation.toml on the cases of the latter. It keeps each case's errors in the output folder once
+it is through, and writes the table between the markers of accuracy.md; `--table-only` writes it again from
 what is kept. Errors are those that `make verify` checks; wall times are left to `make bench`, which wants the
 machine for itself. Exit status: 0; 1 when a run failed or a case is missing; 2 when it cannot start.
 """

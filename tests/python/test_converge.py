@@ -109,3 +109,15 @@ def test_refusals_count_apart() -> None:
     assert (found["bands"], found["covered"], found["coverage"]) == (2, 1, 0.5)
     assert found["refused"] == pytest.approx(1 / 3)
     assert math.isnan(converge.summary([])["coverage"])
+
+
+@pytest.mark.parametrize(("covered", "refused", "status"), [(9, 0, 0), (8, 0, 1), (9, 9, 1), (0, 10, 1)])
+def test_few_covering_bands_and_many_refusals_fail(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, covered: int, refused: int, status: int
+) -> None:
+    rows = [{**row(), "study": "one", "error": 0.1, "covered": k < covered} for k in range(10)]
+    for k in range(refused):
+        rows[9 - k] |= {"band": None, "covered": False}
+    monkeypatch.setattr(converge, "run_study", lambda study, *_: rows if study["case"] == "couette" else [])
+    assert converge.main(["--solver", "/bin/true", "--out", str(tmp_path)]) == status
+    assert (tmp_path / converge.RESULTS).exists()
