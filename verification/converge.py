@@ -14,6 +14,7 @@ import argparse
 import json
 import math
 import os
+import statistics
 import subprocess
 import sys
 import tomllib
@@ -141,6 +142,7 @@ def run_study(
 def summary(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """Shares of covered bands and of refusals; shares of nothing are NaN and pass no test."""
     banded = [row for row in rows if row["band"] is not None]
+    ratios = [row["band"] / row["error"] for row in banded if row["error"] > 0]
     covered = sum(row["covered"] for row in banded)
     return {
         "quantities": len(rows),
@@ -148,6 +150,7 @@ def summary(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         "covered": covered,
         "coverage": covered / len(banded) if banded else math.nan,
         "refused": (len(rows) - len(banded)) / len(rows) if rows else math.nan,
+        "band_over_error": statistics.median(ratios) if ratios else None,
     }
 
 
@@ -177,7 +180,8 @@ def table(rows: Sequence[Mapping[str, Any]]) -> str:
     for name, mine in [*groups, ("all", rows)]:
         found = summary(mine)
         refused = found["quantities"] - found["bands"]
-        lines.append(f"| {name} | {found['bands']} | {found['covered']} | {refused} |")
+        ratio = f"{found['band_over_error'] or math.nan:.1f}"
+        lines.append(f"| {name} | {found['bands']} | {found['covered']} | {refused} | {ratio} |")
     return "\n".join(lines)
 
 
@@ -216,6 +220,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     print(
         f"{found['covered']} of {found['bands']} bands cover the true error: {100 * found['coverage']:.1f} %"
     )
+    print(f"median of band over error: {found['band_over_error'] or math.nan:.1f}")
     print(f"{100 * found['refused']:.1f} % of {found['quantities']} quantities refused")
     good = found["coverage"] >= plan["least_coverage"] and found["refused"] <= plan["most_refused"]
     return 0 if good else 1

@@ -104,10 +104,15 @@ def test_a_truth_that_is_not_a_number_is_an_error() -> None:
 
 
 def test_refusals_count_apart() -> None:
-    rows = [{"band": 1.0, "covered": True}, {"band": 1.0, "covered": False}, {"band": None, "covered": False}]
+    rows = [
+        {"band": 1.0, "error": 0.5, "covered": True},
+        {"band": 1.0, "error": 4.0, "covered": False},
+        {"band": None, "error": 1.0, "covered": False},
+    ]
     found = converge.summary(rows)
     assert (found["bands"], found["covered"], found["coverage"]) == (2, 1, 0.5)
     assert found["refused"] == pytest.approx(1 / 3)
+    assert found["band_over_error"] == pytest.approx((2 + 0.25) / 2)
     assert math.isnan(converge.summary([])["coverage"])
 
 
