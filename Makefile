@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test test-kill reference verify report faults claims baseline bench bench-peers counts figures test-slurm lint sanitize fuzz flows format docs clean
+.PHONY: help setup configure build test test-kill reference verify report faults claims baseline bench bench-peers bands ablation counts figures test-slurm lint sanitize fuzz flows format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -65,6 +65,12 @@ bench: build ## Speed against error and the speed targets (build/bench); leave t
 bench-peers: build ## PySPH (installed when missing) on flows of ours beside our solver, into the report of bench
 	@scripts/setup python3-pysph
 	@$(PYTHON) -m verification.bench.peers
+
+bands: build ## Hold the bands of `slurry converge` against flows with a known truth (build/converge, accuracy.md)
+	@$(PYTHON) -m verification.converge --page verification/accuracy.md
+
+ablation: build ## Errors with one key changed at a time: the table of verification/accuracy.md
+	@$(PYTHON) -m verification.ablation
 
 counts: setup ## Instructions of a step (valgrind) against verification/counts.json; the exit status is the verdict
 	@env -u MAKEFLAGS -u MFLAGS $(PYTHON) -m verification.counts --jobs $(JOBS)

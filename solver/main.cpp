@@ -1,5 +1,6 @@
-// The command line: `slurry run|check|info SCENE`, `slurry help scene`, `slurry bench`.
+// The command line: `slurry run|check|info|converge SCENE`, `slurry help scene`, `slurry bench`.
 #include "solver/bench/bench.hpp"
+#include "solver/converge/report.hpp"
 #include "solver/discs/motion.hpp"
 #include "solver/discs/placement.hpp"
 #include "solver/geometry/geometry_error.hpp"
@@ -47,6 +48,8 @@ struct Arguments {
     bool markdown = false;
     std::filesystem::path json;
     bool quick = false;
+    StudyOptions study;
+    double error = 0.01;
 };
 
 void print(std::string_view text) {
@@ -60,20 +63,37 @@ void warn(const std::string& text) {
     std::cerr << "warning: " << text << '\n';
 }
 
-// Of a checkpoint when there is one and no scene is named.
-Scene scene_of(const Arguments& arguments, const std::filesystem::path& checkpoint = {}) {
+std::vector<std::string> overrides_of(const Arguments& arguments) {
     std::vector<std::string> overrides = arguments.overrides;
     if (!arguments.spacing.empty())
         overrides.push_back("numerics.particle_spacing=" + arguments.spacing);
     if (!arguments.checkpoint_interval.empty())
         overrides.push_back("output.checkpoint_interval=" + arguments.checkpoint_interval);
+    return overrides;
+}
+
+Limits limits_of(const Arguments& arguments) {
     Limits limits;
     for (const std::string& limit : arguments.limits)
         set_limit(limits, limit);
+    return limits;
+}
+
+// Of a checkpoint when there is one and no scene is named.
+Scene scene_of(const Arguments& arguments, const std::filesystem::path& checkpoint = {}) {
+    const std::vector<std::string> overrides = overrides_of(arguments);
+    const Limits limits = limits_of(arguments);
     Scene scene = arguments.scene.empty() ? read_checkpoint_scene(checkpoint, overrides, limits)
                                           : read_scene(arguments.scene, overrides, limits);
     std::ranges::for_each(scene.warnings, warn);
     return scene;
+}
+
+void write_whole(const std::filesystem::path& path, std::string_view text) {
+    PartialFile file(path);
+    file.write(text);
+    file.synchronise();
+    file.commit();
 }
 
 void run(const Arguments& arguments) {
@@ -105,6 +125,26 @@ void check(const Arguments& arguments) {
 
 void info(const Arguments& arguments) {
     print(describe_scene(scene_of(arguments)));
+}
+
+void converge(const Arguments& arguments) {
+    StudyOptions options = arguments.study;
+    if (options.folder.empty()) {
+        options.folder = arguments.scene.stem() += ".converge";
+    }
+    options.threads = arguments.run.threads;
+    options.quiet = arguments.run.quiet;
+    static_cast<void>(scene_of(arguments)); // warns once, not at every spacing
+    const SceneReader read = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> overrides = overrides_of(arguments);
+        overrides.insert(overrides.end(), more.begin(), more.end());
+        return read_scene(arguments.scene, overrides, limits_of(arguments));
+    };
+    const Study study = run_study(read, options);
+    const std::vector<Plan> plans{plan_for(study, arguments.error)};
+    write_whole(options.folder / "convergence.json", study_json(study, plans));
+    write_whole(options.folder / "convergence.svg", study_svg(study));
+    print(study_text(study, plans));
 }
 
 void bench(const Arguments& arguments) {
@@ -140,6 +180,49 @@ CLI::App* add_scene_command(CLI::App& app, const char* name, const char* descrip
     return command;
 }
 
+void add_run_options(CLI::App& command, RunOptions& options) {
+    command.add_option("--threads", options.threads, "Number of threads; the answer does not depend on it")
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N")
+        ->capture_default_str();
+    command.add_flag("--quiet", options.quiet, "No progress and no summary");
+}
+
+// "1%" becomes "1e-2"; the rest is for the conversion that follows.
+std::string without_percent(std::string& text) {
+    if (text.ends_with('%'))
+        text.replace(text.size() - 1, 1, "e-2");
+    return {};
+}
+
+void add_converge_command(CLI::App& app, Arguments& arguments) {
+    CLI::App* command = add_scene_command(
+        app, "converge", "Run a scene at several spacings: an error band for each quantity", arguments);
+    command
+        ->add_option("--out", arguments.study.folder,
+                     "Folder for convergence.json, convergence.svg and the runs (SCENE's stem + .converge)")
+        ->type_name("DIR");
+    command
+        ->add_option("--spacings", arguments.study.spacings,
+                     "How many: the scene's, and coarser ones by sqrt(2) each")
+        ->check(CLI::Range(3, 9))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        ->add_option("--error", arguments.error,
+                     "Wanted band, of the largest of each kind: which spacing and time does it need?")
+        ->transform(CLI::Validator(without_percent, ""))
+        ->check(CLI::Range(1e-9, 1.0))
+        ->type_name("SHARE")
+        ->capture_default_str();
+    command->add_flag("--reuse", arguments.study.reuse,
+                      "Keep runs of the same scenes that the folder holds already");
+    command->add_flag("!--fixed-sound-speed", arguments.study.vary_sound_speed,
+                      "Leave out the run with twice the sound speed, and its share of the bands");
+    add_run_options(*command, arguments.run);
+    command->callback([&] { converge(arguments); });
+}
+
 void add_bench_command(CLI::App& app, Arguments& arguments) {
     CLI::App* command = app.add_subcommand("bench", "Measure this machine, and the pair loops on it");
     command->add_option("--json", arguments.json, "Write the figures to this file, too")->type_name("FILE");
@@ -166,13 +249,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                      "Wall time between checkpoints, s: short for --set output.checkpoint_interval=S")
         ->type_name("S");
     arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    runner
-        ->add_option("--threads", arguments.run.threads,
-                     "Number of threads; the answer does not depend on it")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N")
-        ->capture_default_str();
-    runner->add_flag("--quiet", arguments.run.quiet, "No progress and no summary");
+    add_run_options(*runner, arguments.run);
     runner->callback([&] { run(arguments); });
     add_scene_command(app, "check", "Check a scene and its geometry", arguments)->callback([&] {
         check(arguments);
@@ -180,6 +257,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
     add_scene_command(app, "info", "Tell what a run would do, and why", arguments)->callback([&] {
         info(arguments);
     });
+    add_converge_command(app, arguments);
     CLI::App* helper = app.add_subcommand("help", "Describe the scene file");
     helper->add_option("TOPIC", arguments.topic, "scene")->required()->check(CLI::IsMember({"scene"}));
     helper->add_flag("--markdown", arguments.markdown, "As Markdown, for the documentation");
@@ -221,7 +299,7 @@ int run_and_report(int count, char** words) {
         return fail(fmt::format("{}: {}", arguments.scene.string(), error.what()), bad_input);
     } catch (const OutputError& error) {
         return fail(error.what(), bad_input);
-    } catch (const CheckpointError& error) {
+    } catch (const ReadError& error) {
         return fail(error.what(), bad_input);
     } catch (const RunInterrupted& end) {
         return fail(end.what(), run_interrupted);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 
 namespace slurry {
@@ -18,7 +19,7 @@ bool is_good(herr_t status) {
 
 template <class Result> Result Hdf5Reader::require(Result result, const std::string& part) const {
     if (!is_good(result))
-        throw CheckpointError(fmt::format("{}: cannot read {}: {}", name_, part, hdf5_reason()));
+        throw ReadError(fmt::format("{}: cannot read {}: {}", name_, part, hdf5_reason()));
     return result;
 }
 
@@ -49,7 +50,7 @@ std::string Hdf5Reader::text(const std::string& object, const std::string& name)
     const Hdf5Handle attribute = open_attribute(object, name);
     const Hdf5Handle type = require(Hdf5Handle(H5Aget_type(attribute.get()), H5Tclose), name);
     if (H5Tis_variable_str(type.get()) <= 0)
-        throw CheckpointError(fmt::format("{}: {} of {} is not a text", name_, name, object));
+        throw ReadError(fmt::format("{}: {} of {} is not a text", name_, name, object));
     char* characters = nullptr;
     require(H5Aread(attribute.get(), type.get(), static_cast<void*>(&characters)), name);
     const std::unique_ptr<char, herr_t (*)(void*)> owner(characters, H5free_memory);
@@ -64,10 +65,32 @@ std::size_t Hdf5Reader::size(const std::string& path) const {
     return points < 0 ? 0 : static_cast<std::size_t>(points);
 }
 
+std::vector<double> StoredTable::column(std::size_t index) const {
+    std::vector<double> chosen(rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+        chosen[row] = values[row * columns + index];
+    }
+    return chosen;
+}
+
+StoredTable Hdf5Reader::table(const std::string& path) const {
+    const Hdf5Handle dataset =
+        require(Hdf5Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose), path);
+    const Hdf5Handle space = require(Hdf5Handle(H5Dget_space(dataset.get()), H5Sclose), path);
+    std::array<hsize_t, 2> sizes{0, 1};
+    const int rank = H5Sget_simple_extent_ndims(space.get());
+    if (rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space.get(), sizes.data(), nullptr) < 0) {
+        throw ReadError(fmt::format("{}: {} is not a table of numbers", name_, path));
+    }
+    StoredTable table{sizes[0], sizes[1], std::vector<double>(sizes[0] * sizes[1])};
+    require(H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.values.data()), path);
+    return table;
+}
+
 template <class T>
 std::vector<T> Hdf5Reader::values(const std::string& path, std::size_t count, hid_t type) const {
     if (const std::size_t found = size(path); found != count)
-        throw CheckpointError(
+        throw ReadError(
             fmt::format("{}: found {} numbers in {}, not {}: of another run", name_, found, path, count));
     std::vector<T> values(count);
     const Hdf5Handle dataset =

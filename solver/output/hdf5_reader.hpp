@@ -1,7 +1,8 @@
 #pragma once
-// Reading a checkpoint: nothing in the file decides how much memory is taken.
+// Reading a result or a checkpoint back.
 #include "solver/output/hdf5_handle.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -9,13 +10,21 @@
 
 namespace slurry {
 
-// A checkpoint that a run cannot go on from; what() is one line that names the file and the reason.
-class CheckpointError : public std::runtime_error {
+// A file that is damaged, or not what was looked for; what() is one line that names the file and the reason.
+class ReadError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-// Members throw CheckpointError. Paths are absolute within the file.
+struct StoredTable { // row by row; a table [n] has one column
+    std::size_t rows = 0;
+    std::size_t columns = 1;
+    std::vector<double> values;
+
+    [[nodiscard]] std::vector<double> column(std::size_t index) const;
+};
+
+// Members throw ReadError. Paths are absolute within the file.
 class Hdf5Reader {
   public:
     explicit Hdf5Reader(const std::filesystem::path& path);
@@ -26,7 +35,9 @@ class Hdf5Reader {
     [[nodiscard]] std::string text(const std::string& object, const std::string& name) const;
     // Numbers in a dataset.
     [[nodiscard]] std::size_t size(const std::string& path) const;
-    // All of them, where there have to be `size`.
+    // All of them in a dataset [n] or [n, m].
+    [[nodiscard]] StoredTable table(const std::string& path) const;
+    // Those of a checkpoint, where there have to be `size`: nothing in the file decides how much memory is taken.
     [[nodiscard]] std::vector<double> numbers(const std::string& path, std::size_t size) const;
     [[nodiscard]] std::vector<int> integers(const std::string& path, std::size_t size) const;
 

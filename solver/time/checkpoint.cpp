@@ -70,14 +70,14 @@ void require_indices(const Hdf5Reader& reader, const Particles& particles) {
         good = good && dummies.wall[d] >= first && dummies.wall[d] < (dummies.of_disc(d) ? solids : walls);
     }
     if (!good) {
-        throw CheckpointError(fmt::format("{}: its particles are not those of the scene", reader.name()));
+        throw ReadError(fmt::format("{}: its particles are not those of the scene", reader.name()));
     }
 }
 
 long read_count(const Hdf5Reader& reader, const std::string& object, const std::string& name, long most) {
     const double value = reader.number(object, name);
     if (!(value >= 0 && value <= static_cast<double>(most))) {
-        throw CheckpointError(
+        throw ReadError(
             fmt::format("{}: {} of {} is {}, not 0 ... {}", reader.name(), name, object, value, most));
     }
     return static_cast<long>(value);
@@ -174,7 +174,7 @@ void write_checkpoint(PartialFile& file, const RunIdentity& identity, const RunS
 void read_checkpoint(const std::filesystem::path& path, const RunIdentity& identity, const RunState& state) {
     const Hdf5Reader reader(path);
     if (const std::string found = difference(identity_of(reader), identity); !found.empty()) {
-        throw CheckpointError(fmt::format(
+        throw ReadError(fmt::format(
             "{}: the checkpoint has {}; a run goes on with what it began with only", path.string(), found));
     }
     read_particles(reader, state.particles);

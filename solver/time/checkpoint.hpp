@@ -26,10 +26,10 @@ void write_checkpoint(PartialFile& file, const RunIdentity& identity, const RunS
                       const std::filesystem::path& scene);
 
 // Takes a run that was set up from the same scene, and has taken no step, to where the checkpoint is. Throws
-// CheckpointError when it is of another scene, version or precision, or damaged.
+// ReadError when it is of another scene, version or precision, or damaged.
 void read_checkpoint(const std::filesystem::path& path, const RunIdentity& identity, const RunState& state);
 
-// The scene of a checkpoint; files that it names are read again. Throws CheckpointError, SceneError.
+// The scene of a checkpoint; files that it names are read again. Throws ReadError, SceneError.
 [[nodiscard]] Scene read_checkpoint_scene(const std::filesystem::path& path,
                                           std::span<const std::string> overrides, const Limits& limits = {});
 

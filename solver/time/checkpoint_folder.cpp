@@ -42,7 +42,7 @@ FoundCheckpoint find_checkpoint(const std::filesystem::path& folder) {
     if (fault_before.empty()) {
         return {previous_in(folder), fmt::format("{}; going on from the one before", fault)};
     }
-    throw CheckpointError(fmt::format("{}: no checkpoint to resume from: {}; {}; start the run again without "
+    throw ReadError(fmt::format("{}: no checkpoint to resume from: {}; {}; start the run again without "
                                       "--resume",
                                       folder.string(), fault, fault_before));
 }

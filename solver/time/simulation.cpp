@@ -175,7 +175,7 @@ class Run {
         }
         read_checkpoint(options_.resume_from, identity_, state_);
         if (step_ >= steps_) {
-            throw CheckpointError(fmt::format("{}: is of step {}, and the run has {}",
+            throw ReadError(fmt::format("{}: is of step {}, and the run has {}",
                                               options_.resume_from.string(), step_, steps_));
         }
         if (!options_.quiet) {

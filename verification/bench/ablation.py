@@ -18,7 +18,7 @@ def variants(session: Session) -> list[dict[str, Any]]:
             allowed = session.keys[key] if session.knows(key) else ()
             usual = default_name(session.manual, key)
             found += [
-                {"name": f"{key.split('.')[-1]} {name}", "set": {key: name}}
+                {**entry, "name": f"{key.split('.')[-1]} {name}", "set": {key: name}}
                 for name in allowed
                 if name != usual
             ]

@@ -69,7 +69,7 @@ TEST_F(CheckpointFolderTest, KeepsTheLastTwo) {
     EXPECT_EQ(step_in(previous_), run_.step - 1);
     folder.remove();
     EXPECT_FALSE(fs::exists(current_) || fs::exists(previous_));
-    EXPECT_THROW((void)find_checkpoint(folder_.path()), CheckpointError);
+    EXPECT_THROW((void)find_checkpoint(folder_.path()), ReadError);
 }
 
 TEST_F(CheckpointFolderTest, DetectsAnyBitThatChanged) {
@@ -111,7 +111,7 @@ TEST_F(CheckpointFolderTest, TakesTheOneBeforeADamagedOneAndKeepsIt) {
     EXPECT_EQ(step_in(previous_), run_.step - 2) << "the damaged one is not to take a good one's place";
     write_bytes(current_, "");
     write_bytes(previous_, "");
-    EXPECT_THROW((void)find_checkpoint(folder_.path()), CheckpointError);
+    EXPECT_THROW((void)find_checkpoint(folder_.path()), ReadError);
 }
 
 TEST_F(CheckpointFolderTest, TakesTheOneBeforeWhenTheLastIsMissing) {

@@ -50,7 +50,7 @@ class Checkpoint : public ::testing::Test {
         write(run, path_, there);
         try {
             read_checkpoint(path_, here, run.state);
-        } catch (const CheckpointError& error) {
+        } catch (const ReadError& error) {
             return error.what();
         }
         return "";
@@ -143,7 +143,7 @@ TEST_F(Checkpoint, OfOtherParticlesIsRefused) {
     const Scene scene = without_walls();
     run_through(scene);
     ResumableRun other(doubly_periodic(13), folder_.path() / "other");
-    EXPECT_THROW(read_checkpoint(path_, run_identity(scene), other.state), CheckpointError);
+    EXPECT_THROW(read_checkpoint(path_, run_identity(scene), other.state), ReadError);
 }
 
 TEST_F(Checkpoint, WithParticlesThatAreNoPermutationIsRefused) {
@@ -154,7 +154,7 @@ TEST_F(Checkpoint, WithParticlesThatAreNoPermutationIsRefused) {
         run.particles.fluid.identity[3] = wrong;
         run.particles.fluid.identity[4] = wrong;
         write(run, path_, run_identity(scene));
-        EXPECT_THROW(read_checkpoint(path_, run_identity(scene), run.state), CheckpointError);
+        EXPECT_THROW(read_checkpoint(path_, run_identity(scene), run.state), ReadError);
     }
 }
 
