@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import shutil
+import sys
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -21,6 +21,9 @@ SPACING = "numerics.particle_spacing"
 LEVEL = "paper"  # whose spacings and tolerances are a hard case's own
 # Ways to end. Only the last two are a fault of the solver: nothing said that the answer is wrong.
 SURVIVED, STOPPED, REFUSED, WRONG, BROKE = "survived", "stopped", "refused", "wrong", "broke"
+WRAPPER = Path(__file__).parent / "resident_memory.py"
+MOST_GROWTH = 0.01  # of resident memory
+FEWEST_SAMPLES = 3  # in a tenth of the run
 ENDS = {"exit status 3:": STOPPED, "exit status 2:": REFUSED}
 
 
@@ -101,12 +104,28 @@ def attempt(
     set_values = {**subject.variant.set, **{k: v for k, v in values.items() if k != SPACING}}
     run = Run(subject.case, "default", Variant(subject.variant.name, set_values), spacing, finest=True)
     arguments = argparse.Namespace(
-        solver=options.solver, out=folder, solver_set=[], reuse=False, threads=1, timeout=options.timeout
+        solver=options.solver, out=folder, solver_set=[], reuse=False, threads=1, timeout=options.timeout + 10
     )
-    outcome = execute(run, arguments)
+    memory = folder / "resident_memory"
+    small_python = [sys.executable, "-I", "-S", str(WRAPPER), str(memory), str(options.timeout)]
+    outcome = execute(run, arguments, small_python)
     seconds, step = (outcome.attributes.get(name, 0.0) for name in ("wall_seconds", "time_step"))
     end, reason = verdict(outcome)
+    if end == SURVIVED and (growth := memory_growth(memory)) > MOST_GROWTH:
+        end, reason = WRONG, f"resident memory grew by {100 * growth:.3g} % over the second half of the run"
     return Trial(factor, dict(values), end, reason, seconds, step), outcome
+
+
+def memory_growth(samples: Path) -> float:
+    """How much larger the memory's greatest sample is in the run's last tenth than in its middle one, over
+    the latter; 0 for a run too short to tell.
+    """
+    sizes = [int(line) for line in samples.read_text().split()]
+    tenth = len(sizes) // 10
+    if tenth < FEWEST_SAMPLES:
+        return 0.0
+    middle = max(sizes[5 * tenth : 6 * tenth])
+    return max(sizes[-tenth - 1 : -1]) / middle - 1  # the very last may be of a process that has gone
 
 
 def verdict(outcome: Outcome) -> tuple[str, str]:
@@ -147,7 +166,3 @@ def run_for_defaults(subject: Subject, options: argparse.Namespace, folder: Path
         raise CaseError(f"{subject.label}: not even a step: {outcome.failure}") from error
     scene["output"]["end_time"] = subject.case.scene(subject.variant)["output"]["end_time"]
     return scene
-
-
-def discard(folder: Path) -> None:
-    shutil.rmtree(folder, ignore_errors=True)
