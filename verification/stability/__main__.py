@@ -110,15 +110,27 @@ def answer(
     task: Task, defaults: dict[str, Any] | None, options: argparse.Namespace, solver: bytes
 ) -> dict[str, Any]:
     """The stored answer of this very task, or a new one, stored whole or not at all."""
-    stored, wanted = options.out / "margins" / f"{task.name}.json", digest(task, solver)
+    if found := stored_answer(task, options, solver):
+        return found
+    stored = options.out / "margins" / f"{task.name}.json"
+    made = perform(task, defaults, options) | {"digest": digest(task, solver)}
+    partial = stored.with_suffix(".part")
+    partial.write_text(json.dumps(made, indent=1) + "\n")
+    partial.replace(stored)
+    return made | described(task)
+
+
+def stored_answer(task: Task, options: argparse.Namespace, solver: bytes) -> dict[str, Any]:
+    """The answer of this very task to this very solver, empty if there is none."""
+    stored = options.out / "margins" / f"{task.name}.json"
     found = json.loads(stored.read_text()) if stored.exists() else {}
-    if found.get("digest") != wanted:
-        found = perform(task, defaults, options) | {"digest": wanted}
-        partial = stored.with_suffix(".part")
-        partial.write_text(json.dumps(found, indent=1) + "\n")
-        partial.replace(stored)
+    return found | described(task) if found.get("digest") == digest(task, solver) else {}
+
+
+def described(task: Task) -> dict[str, str]:
+    """What is the case's to say and not measured."""
     meaning = task.direction.meaning if task.direction else "as the defaults run it"
-    return found | {"known_shortfall": task.known_shortfall, "meaning": meaning}
+    return {"known_shortfall": task.known_shortfall, "meaning": meaning}
 
 
 def run_all(planned: Sequence[Task], options: argparse.Namespace) -> list[dict[str, Any]]:
@@ -163,6 +175,7 @@ def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--case", action="append", help="only this case (repeatable)")
     parser.add_argument("--solver", type=Path, default=REPOSITORY / "build" / "slurry")
     parser.add_argument("--out", type=Path, default=REPOSITORY / "build" / "stability")
+    parser.add_argument("--report-only", action="store_true", help="of the answers so far")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="runs at a time")
     parser.add_argument("--timeout", type=float, default=600, metavar="S", help="for one run (%(default)s s)")
     return parser.parse_args(argv)
@@ -178,7 +191,11 @@ def main(argv: Sequence[str] | None = None) -> int:
             raise CaseError(f"{options.solver} is not there or not executable: run `make build` first")
         known = directions()
         planned = [t for name in options.case or names for t in tasks(load_case(name), known)]
-        answers = run_all(planned, options)
+        if options.report_only:
+            solver = options.solver.read_bytes()
+            answers = [found for task in planned if (found := stored_answer(task, options, solver))]
+        else:
+            answers = run_all(planned, options)
         report.write(answers, options.out)
     except KeyboardInterrupt:
         print("stability: interrupted; the answers so far are kept", file=sys.stderr)
