@@ -86,25 +86,28 @@ def margins_table(answers: Sequence[Answer]) -> Table:
 
 def figure(answers: Sequence[Answer]) -> Figure:
     """Cases down, directions across; a cell's colour says how far the limit is, its text how it ends."""
-    pushed = [a for a in answers if a["direction"] != DEFAULTS]
-    rows = list(dict.fromkeys((a["case"], a["variant"]) for a in pushed))
-    columns = list(dict.fromkeys(a["direction"] for a in pushed))
+    rows = list(dict.fromkeys((a["case"], a["variant"]) for a in answers))
+    columns = list(dict.fromkeys(a["direction"] for a in answers))
     levels = np.full((len(rows), len(columns)), np.nan)
-    plot = Figure(figsize=(1.5 + 1.05 * len(columns), 1.8 + 0.5 * len(rows)), layout="constrained")
+    plot = Figure(figsize=(2.5 + 0.95 * len(columns), 1.8 + 0.42 * len(rows)), layout="constrained")
     axes = plot.add_subplot()
-    for answer in pushed:
+    for answer in answers:
         row, column = rows.index((answer["case"], answer["variant"])), columns.index(answer["direction"])
-        trial = beyond(answer)
-        levels[row, column] = (answer["margin"] >= 1) + answer["met"] + (answer["met"] and trial is None)
-        margin = f"{answer['margin']:.3g}"
-        text = f"{margin}\n{MARKS[trial['end']]}" if trial else f"≥ {margin}"
-        axes.text(column, row, text, ha="center", va="center", fontsize=8)
+        trial, pushed = beyond(answer), answer["direction"] != DEFAULTS
+        open_ended = answer["met"] and (trial is None or not pushed)
+        levels[row, column] = (answer["margin"] >= 1) + answer["met"] + open_ended
+        margin = f"{answer['margin']:.3g}" if pushed else ""
+        text = f"{margin}\n{MARKS[trial['end']]}" if trial else f"≥ {margin}" if pushed else "survives"
+        axes.text(column, row, text.strip(), ha="center", va="center", fontsize=8)
     norm = BoundaryNorm(np.arange(len(COLOURS) + 1) - 0.5, len(COLOURS))
     image = axes.imshow(levels, cmap=ListedColormap(COLOURS), norm=norm, aspect="auto")
     axes.set_xticks(range(len(columns)), [c.replace("_", "\n") for c in columns], fontsize=8)
-    axes.set_yticks(range(len(rows)), [f"{c.replace('_', ' ')}\n{v}" for c, v in rows], fontsize=8)
+    axes.set_yticks(range(len(rows)), [", ".join(row).replace("_", " ") for row in rows], fontsize=8)
+    axes.set_xticks(np.arange(len(columns)) + 0.5, minor=True)
+    axes.set_yticks(np.arange(len(rows)) + 0.5, minor=True)
+    axes.grid(which="minor", color="white", linewidth=2)
+    axes.tick_params(which="minor", length=0)
     axes.set_xlabel("direction in which the case is made harder, by a factor")
-    axes.grid(visible=False)
     bar = plot.colorbar(image, ticks=range(len(COLOURS)), pad=0.01)
     names = ("below 1:\ndefaults fail", f"1 to {TARGET:g}", f"{TARGET:g} or more", "no limit\nfound")
     bar.ax.set_yticklabels(names, fontsize=8)
@@ -112,7 +115,7 @@ def figure(answers: Sequence[Answer]) -> Figure:
     return plot
 
 
-def blocks(answers: Sequence[Answer], picture: Picture | None) -> list[Block]:
+def blocks(answers: Sequence[Answer], picture: Picture) -> list[Block]:
     ends = [f"{mark}: {BEYOND[end]}." for end, mark in MARKS.items()]
     explained = (
         f"A margin is the factor from the default to the last value that survives, known to "
@@ -120,9 +123,8 @@ def blocks(answers: Sequence[Answer], picture: Picture | None) -> list[Block]:
         "fail, and the margin says how far back they do not. What surviving means is stated in each case's "
         "checks. " + " ".join(ends)
     )
-    shown: list[Block] = [picture] if picture else []
     return [
-        explained, *shown, "# Hard cases with the defaults", defaults_table(answers), "# Margins",
+        explained, picture, "# Hard cases with the defaults", defaults_table(answers), "# Margins",
         margins_table(answers),
     ]  # fmt: skip
 
@@ -138,12 +140,10 @@ def write(answers: Sequence[Answer], out: Path) -> None:
     """Writes stability.json, margins.png and the report into `out`."""
     shown = [{key: value for key, value in a.items() if key not in ("scene", "digest")} for a in answers]
     (out / "stability.json").write_text(json.dumps(shown, indent=1, allow_nan=False) + "\n")
-    picture = None
-    if any(answer["direction"] != DEFAULTS for answer in answers):
-        path = out / "margins.png"
-        with matplotlib.rc_context({"figure.dpi": 130}):
-            figure(answers).savefig(path)
-        picture = Picture("margins", path, "Margins of the defaults")
+    path = out / "margins.png"
+    with matplotlib.rc_context({"figure.dpi": 130}):
+        figure(answers).savefig(path)
+    picture = Picture("margins", path, "Margins of the defaults")
     title, content, name = headline(answers), blocks(answers, picture), "Stability report"
     (out / "report.md").write_text(to_markdown(title, content, out, name))
     passed = all(standing(answer) != "failed" for answer in answers)

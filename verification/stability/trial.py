@@ -132,7 +132,8 @@ def verdict(outcome: Outcome) -> tuple[str, str]:
     """How a run ended, and why in one line."""
     if outcome.failure:
         end = next((name for start, name in ENDS.items() if outcome.failure.startswith(start)), BROKE)
-        return end, outcome.failure.partition(": ")[2] if end != BROKE else outcome.failure
+        reason = outcome.failure.replace(f"{outcome.run.case.scene_path.parent}/", "")
+        return end, reason.partition(": ")[2] if end != BROKE else reason
     (results,) = judge([outcome], References(), LEVEL)
     failed = [result for result in results if not result.passed and not result.check.reported]
     reasons = "; ".join(f"{result.check.quantity}: {result.explanation()}" for result in failed)
