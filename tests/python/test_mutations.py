@@ -100,6 +100,39 @@ def test_the_tally_leaves_out_what_does_not_build(caught, enough):
     assert not tally([{"outcome": "not built"}])[1]
 
 
+CMAKE = """cmake_minimum_required(VERSION 3.18)
+project(p CXX)
+add_executable(slurry solver/energy.cpp)
+add_executable(slurry_tests solver/energy.cpp)
+"""
+MAIN = """#include <cstdio>
+int main() {
+    double sum = 0;
+    sum += 2.0 * 3;
+    double unused = 1;
+    unused += 2.0 * unused;
+    if (sum == 6) { return 0; }
+    std::puts("[  FAILED  ] Energy.Sum (0 ms)");
+    return 1;
+}
+"""
+
+
+def test_mutants_are_built_and_the_survivor_is_told_from_the_caught(tmp_path, monkeypatch):
+    source = tmp_path / "tree"
+    (source / "solver").mkdir(parents=True)
+    (source / "CMakeLists.txt").write_text(CMAKE)
+    (source / "solver" / "energy.cpp").write_text(MAIN)
+    (tmp_path / "answers").mkdir()
+    monkeypatch.setattr(mutations, "CASES", ())
+    options = argparse.Namespace(source=source, out=tmp_path, cmake_flag=[], timeout=60)
+    found = {m.line: m for m in mutants_of("solver/energy.cpp", MAIN) if m.kind == "drop"}
+    assert judge(found[4], options)["by"] == "unit test Energy.Sum"
+    assert judge(found[6], options)["outcome"] == "survived"
+    broken = Mutant("solver/energy.cpp", 4, "sign", found[4].before, "    sum = ;")
+    assert judge(broken, options)["outcome"] == "not built"
+
+
 def test_a_red_unit_test_is_named(tmp_path):
     tests = tmp_path / "slurry_tests"
     tests.write_text("#!/bin/sh\necho '[  FAILED  ] Kernel.IntegralIsOne (3 ms)'\nexit 1\n")
