@@ -26,7 +26,7 @@ from verification.case import HARD, ROOT, Case, CaseError, load_case
 from verification.run import References
 from verification.stability import report
 from verification.stability.margins import Margin, find
-from verification.stability.trial import Direction, Subject, Trial, attempt, base_scene, harder
+from verification.stability.trial import LEVEL, Direction, Subject, Trial, attempt, base_scene, harder
 
 REPOSITORY = ROOT.parent
 FOLDER = ROOT / HARD
@@ -74,7 +74,7 @@ def digest(task: Task, solver: bytes) -> str:
     """Of everything that a stored answer depends on."""
     case = task.subject.case
     scene = case.scene(task.subject.variant)
-    checks = [repr(c) for c in case.checks("default", "paper", task.subject.variant.name)]
+    checks = [repr(c) for c in case.checks("default", LEVEL, task.subject.variant.name)]
     parts = [solver, json.dumps(scene, sort_keys=True).encode(), "\n".join(checks).encode()]
     return hashlib.sha256(b"\0".join([*parts, repr(task.direction).encode()])).hexdigest()
 

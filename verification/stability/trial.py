@@ -13,12 +13,12 @@ from typing import Any
 
 import h5py
 
-from verification.case import Case, CaseError, Variant
+from verification.case import HARD, Case, CaseError, Variant
 from verification.execute import Outcome, Run, execute
 from verification.run import References, judge
 
 SPACING = "numerics.particle_spacing"
-LEVEL = "paper"  # whose spacings and tolerances are a hard case's own
+LEVEL = HARD  # whose spacings the cases name beside those of gate and paper
 # Ways to end. Only the last two are a fault of the solver: nothing said that the answer is wrong.
 SURVIVED, STOPPED, REFUSED, WRONG, BROKE = "survived", "stopped", "refused", "wrong", "broke"
 WRAPPER = Path(__file__).parent / "resident_memory.py"
