@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test test-kill reference verify report faults claims baseline bench bench-peers bands ablation counts figures test-slurm lint sanitize fuzz flows format docs clean
+.PHONY: help setup configure build test test-kill reference verify stability report faults mutations claims baseline bench bench-peers bands ablation counts figures test-slurm lint sanitize fuzz flows format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -47,11 +47,17 @@ reference: setup ## Make the reference solutions that verify compares with (cach
 verify: build ## Run every case against its reference; the exit status is the verdict (LEVEL=gate or paper)
 	@$(PYTHON) -m verification.run --level $(LEVEL)
 
+stability: build ## Push every hard case until it breaks: margins in build/stability/report.html (half an hour; resumes)
+	@$(PYTHON) -m verification.stability --jobs $(JOBS)
+
 report: setup ## Write the report again from the last results (build/verify/report.html)
 	@$(PYTHON) -m verification.report
 
 faults: build ## Plant each known fault and show that the named checks fail
 	@$(PYTHON) -m verification.faults
+
+mutations: build ## Plant small faults in the physics by machine; at least 90 % must be caught (many hours; resumes)
+	@$(PYTHON) -m verification.mutations
 
 claims: setup ## Write verification/claims.md, the ledger of the paper's claims, from the last results
 	@$(PYTHON) -m verification.claims

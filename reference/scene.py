@@ -9,6 +9,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import astuple, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -228,6 +229,11 @@ def read_scene(path: Path, overrides: Mapping[str, object]) -> Scene:
         raise ReferenceError(f"{path}: not a readable scene: {error}") from error
     for address, value in flatten(overrides).items():
         override(tables, address, value, path)
+    return scene_of(path, tables)
+
+
+def scene_of(path: Path, tables: Mapping[str, Any]) -> Scene:
+    """The scene of a file's content; ReferenceError as for read_scene."""
     domain = _Table(path, "domain", tables.get("domain", {}))
     fluid = _Table(path, "fluid", tables.get("fluid", {}))
     start = _Table(path, "start", tables.get("start", {}))

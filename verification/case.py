@@ -17,6 +17,7 @@ from reference.scene import override
 from verification.compare import EVERY, KINDS, METRICS, Check, Curves
 
 ROOT = Path(__file__).resolve().parent
+HARD = "stability"  # the folder of the hard cases
 SCHEMES = ("default", "wang2014")
 LEVELS = ("gate", "paper")
 CHECK_KEYS = {
@@ -94,9 +95,12 @@ def select(value: Any, keys: Iterable[str]) -> Any:
 
 def load_case(name: str, root: Path = ROOT) -> Case:
     """Reads and checks one case; raises CaseError."""
-    path = root / name / "checks.toml"
+    folder = root / name if (root / name).is_dir() else root / HARD / name
+    path = folder / "checks.toml"
     try:
         data = tomllib.loads(path.read_text())
+        if "include" in data:  # checks that cases share
+            data["checks"] = tomllib.loads((folder / data["include"]).read_text())["checks"] + data["checks"]
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise CaseError(f"{name}: {error}") from error
     missing = {"spacings", "variants", "checks"} - data.keys()
@@ -106,7 +110,8 @@ def load_case(name: str, root: Path = ROOT) -> Case:
         Variant(v["name"], v.get("set", {}), v.get("scene", "scene.toml")) for v in data["variants"]
     )
     figures = tuple(data.get("figures", ()))
-    case = Case(name, root / name / "scene.toml", data.get("reference", ""), figures, variants, data)
+    scene_path = (folder / data.get("scene", "scene.toml")).resolve()
+    case = Case(name, scene_path, data.get("reference", ""), figures, variants, data)
     if unknown := set(case.schemes) - set(SCHEMES):
         raise CaseError(f"{path.name} of {name}: no scheme is called {', '.join(sorted(unknown))}")
     for scheme in case.schemes:
@@ -118,7 +123,8 @@ def load_case(name: str, root: Path = ROOT) -> Case:
 
 
 def load_cases(root: Path = ROOT) -> list[Case]:
-    return [load_case(path.parent.name, root) for path in sorted(root.glob("*/checks.toml"))]
+    folders = (path.parent for top in (root, root / HARD) for path in sorted(top.glob("*/checks.toml")))
+    return [load_case(folder.name, root) for folder in folders]
 
 
 def _checks(

@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from verification.budgets import BUDGETS
 from verification.compare import Array, DataError
 from verification.measure import Result
 from verification.phases import PHASES, phases
@@ -89,4 +90,5 @@ DERIVED: dict[str, Callable[[Result], Series]] = {
     "phases_missing": phases_missing,
     "array_drag": array_drag,
     "array_balance": array_balance,
+    **BUDGETS,
 }

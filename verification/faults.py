@@ -83,12 +83,18 @@ def synchronise(source: Path, copy: Path, fault: Fault) -> None:
             destination.write_bytes(content)
 
 
-def build(fault: Fault, out: Path, source: Path = REPOSITORY) -> Path:
-    """The solver with a source fault in; all source faults share one build folder."""
+def build(
+    fault: Fault,
+    out: Path,
+    source: Path = REPOSITORY,
+    targets: Sequence[str] = ("slurry",),
+    flags: Sequence[str] = (),
+) -> Path:
+    """The solver with a source fault in; all source faults share one build folder. `flags` are CMake's."""
     copy, folder = out / "source", out / "build"
     synchronise(source, copy, fault)
-    configure = ["cmake", "-S", str(copy), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release"]
-    for command in (configure, ["cmake", "--build", str(folder), "--target", "slurry", "--parallel", "2"]):
+    configure = ["cmake", "-S", str(copy), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release", *flags]
+    for command in (configure, ["cmake", "--build", str(folder), "--parallel", "2", "--target", *targets]):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             errors = [line for line in (done.stdout + done.stderr).splitlines() if "rror" in line]

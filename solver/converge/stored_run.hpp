@@ -41,7 +41,7 @@ struct StoredRun {
 
 // Reads the result.h5 of a run of the scene. Pressures are what exceeds the fluid's mean (an incompressible
 // pressure has no zero of its own), and a wall's largest and smallest are told from the wall's mean. Throws
-// OutputError.
+// ReadError.
 [[nodiscard]] StoredRun read_run(const std::filesystem::path& result, const Scene& scene);
 
 } // namespace slurry
