@@ -80,6 +80,7 @@ void CheckpointFolder::write(const RunIdentity& identity, const RunState& state,
         std::filesystem::remove(previous_, error);
     }
     newest_ = current_;
+    last_ = now_(); // or a slow disk would have a run write and nothing else
 }
 
 bool CheckpointFolder::has_foreign() const {

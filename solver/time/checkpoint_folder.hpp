@@ -23,7 +23,7 @@ class CheckpointFolder {
     CheckpointFolder(const std::filesystem::path& folder, double interval,
                      const std::filesystem::path& resumed_from, SecondsSource now = steady_seconds);
 
-    // Whether the interval has passed since the last call that said so.
+    // Whether the interval has passed since the last checkpoint, or the last call that said so.
     [[nodiscard]] bool due();
     // Keeps the one before, too. Throws OutputError; what was there is then left as it was.
     void write(const RunIdentity& identity, const RunState& state, const std::filesystem::path& scene);

@@ -38,8 +38,8 @@ arrangement = "jittered"
 def alone(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A scene of a second or so, with discs, probes and snapshots, and its result on one thread."""
     scene = tmp_path_factory.mktemp("alone") / "scene.toml"
-    text = SCENE.replace("spacing = 1e-6", "spacing = 2.5e-7").replace("end_time = 1e-6", "end_time = 2e-5")
-    scene.write_text(text.replace("[0.0]\n", "[0.0, 4e-6, 1.2e-5]\n") + DISCS)
+    text = SCENE.replace("spacing = 1e-6", "spacing = 2.5e-7").replace("end_time = 1e-6", "end_time = 1e-5")
+    scene.write_text(text.replace("[0.0]\n", "[0.0, 2e-6, 6e-6]\n") + DISCS)
     done = slurry("run", scene, "--quiet", "--threads", "1", cwd=scene.parent)
     assert (done.returncode, done.stderr) == (0, "")
     return scene
@@ -89,7 +89,7 @@ def run_with_kills(scene: Path, folder: Path, most: int, generator: random.Rando
     """Kill the run at random moments, at most so often, and let it come to its end. Returns how often."""
     for kill in range(most + 1):
         before = newest(folder)
-        process = start(scene, folder, threads=1 + kill % 2, interval=generator.choice([0, 1e-3, 0.02]))
+        process = start(scene, folder, threads=1 + kill % 2, interval=generator.choice([0, 0.05, 0.2]))
         try:
             process.wait(timeout=generator.uniform(0, 0.6) if kill < most else 120)
         except subprocess.TimeoutExpired:
@@ -131,7 +131,7 @@ def interrupted(alone: Path, tmp_path: Path) -> Path:
 @pytest.mark.parametrize("named", [True, False])
 @pytest.mark.parametrize("threads", [1, 2])
 def test_interrupted_and_resumed(alone: Path, interrupted: Path, threads: int, named: bool) -> None:
-    words = ["--resume", interrupted, "--quiet", "--threads", threads]
+    words = ["--resume", interrupted, "--quiet", "--threads", threads, "--checkpoint-interval", 600]
     done = slurry("run", *([alone] if named else []), *map(str, words), cwd=interrupted.parent)
     assert (done.returncode, done.stderr) == (0, "")
     assert_same_result(interrupted, alone)
@@ -142,7 +142,8 @@ def test_damaged_checkpoint_is_seen_and_the_one_before_taken(alone: Path, interr
     data = bytearray(checkpoint.read_bytes())
     data[len(data) // 2] ^= 1
     checkpoint.write_bytes(data)
-    done = slurry("run", "--resume", interrupted, "--quiet", cwd=interrupted.parent)
+    words = ["--resume", interrupted, "--quiet", "--checkpoint-interval", "600"]
+    done = slurry("run", *words, cwd=interrupted.parent)
     assert done.returncode == 0
     assert len(done.stderr.splitlines()) == 1
     assert "warning:" in done.stderr and "checksum" in done.stderr and str(checkpoint) in done.stderr
@@ -205,7 +206,8 @@ def test_full_disk_keeps_the_checkpoint(alone: Path, interrupted: Path) -> None:
     size = (interrupted / "checkpoint.h5").stat().st_size
     done = slurry("run", "--resume", interrupted, "--quiet", cwd=ROOT, before=limit_file_size(size // 4))
     assert_refused(done, "result.h5.partial", "File too large")
-    assert slurry("run", "--resume", interrupted, "--quiet", cwd=ROOT).returncode == 0
+    words = ["--resume", interrupted, "--quiet", "--checkpoint-interval", "600"]
+    assert slurry("run", *words, cwd=ROOT).returncode == 0
     assert_same_result(interrupted, alone)
 
 
