@@ -127,8 +127,13 @@ class Flow {
         std::string text = fmt::format("[[discs]]\nname = \"grain\"\ndensity = {}\n",
                                        density_ * random_.logarithmic(0.3, 5));
         if (random_.chance(0.5)) {
-            return text + fmt::format("placement = \"random\"\ncount = {}\nradius = {}\nseed = {}\n",
-                                      1 + random_.below(3), radius * spacing_, random_.below(1000));
+            // Any nearer, and discs would start within reach of each other's repulsion, which throws them
+            // apart.
+            const double least_distance = numerics_ == NumericsRange::recommended ? 2 * spacing_ : 0;
+            return text + fmt::format("placement = \"random\"\ncount = {}\nradius = {}\nseed = {}\n"
+                                      "least_distance = {}\n",
+                                      1 + random_.below(3), radius * spacing_, random_.below(1000),
+                                      least_distance);
         }
         return text +
                fmt::format("placement = \"single\"\nradius = {}\nposition = [{}, {}]\nvelocity = [{}, {}]\n"
