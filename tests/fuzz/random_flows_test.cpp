@@ -66,6 +66,40 @@ TEST(RandomFlows, OneThatBreaksIsSeen) {
     std::filesystem::remove_all(output_folder());
 }
 
+// A known shortfall, for which the generator leaves wall_continuity alone where there are discs: extrapolated
+// velocities make a free disc unstable at the default time step; it runs with an acoustic_cfl of 0.25. When
+// this no longer throws, the generator need not be careful.
+TEST(RandomFlows, KnownShortfallOfExtrapolatedContinuityWithAFreeDisc) {
+    const std::string text = R"([domain]
+lower = [0, 0]
+upper = [0.16, 0.12]
+periodic = "xy"
+[fluid]
+density = 1000
+dynamic_viscosity = 0.01
+[numerics]
+particle_spacing = 0.01
+sound_speed = 0.1
+wall_continuity = "extrapolated"
+[start]
+arrangement = "jittered"
+velocity = "taylor_green"
+speed = 0.0056
+[[discs]]
+name = "grain"
+placement = "single"
+density = 760
+radius = 0.02
+position = [0.08, 0.06]
+[output]
+end_time = 1
+)";
+    std::optional<Scene> scene = accepted(text);
+    ASSERT_TRUE(scene);
+    EXPECT_THROW(run_scene(*scene, {output_folder(), 1, true, true}), RunError);
+    std::filesystem::remove_all(output_folder());
+}
+
 TEST(RandomFlows, RunOrAreRefusedWithAReason) {
     const int wanted = setting("SLURRY_FLOWS", 24);
     const int seed = setting("SLURRY_FLOWS_SEED", 1);

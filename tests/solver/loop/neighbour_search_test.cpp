@@ -161,7 +161,7 @@ TEST(NeighbourSearches, OfCoincidentPoints) {
 
 TEST(NeighbourSearches, OfNoPointsAndOfFew) {
     expect_all_pairs_by_every_search(Case().everyone());
-    for (const std::size_t count : {1, 2, 3, 9}) {
+    for (const std::size_t count : {1UL, 2UL, 3UL, 9UL}) {
         expect_all_pairs_by_every_search(random_points(count, 0.1, 0.1));
     }
 }

@@ -31,7 +31,7 @@ TEST(SearchTiming, ClustersAreMoreCrowdedThanTheLatticeButNotMoreSoForMorePoints
         list.build(x, y, all, 0, count, static_cast<std::uint32_t>(count), search_timing_cutoff);
         return static_cast<double>(list.pairs()) / static_cast<double>(count);
     };
-    for (const std::size_t count : {1000, 10'000, 100'000}) {
+    for (const std::size_t count : {1000UL, 10'000UL, 100'000UL}) {
         EXPECT_GT(neighbours(PointSet::uniform, count), 30);
         EXPECT_LT(neighbours(PointSet::uniform, count), 36);
         EXPECT_GT(neighbours(PointSet::clustered, count), 50);
