@@ -59,7 +59,7 @@ def passing(data: Data) -> Figure:
     for axes, time, what in zip(panels, moments(result), ("in the gap", "beyond the gap"), strict=True):
         particles = result.particles(time)
         speed = np.linalg.norm(particles.velocity, axis=1)
-        style = {"s": 6e4 / len(speed), "cmap": "viridis", "vmin": 0, "vmax": 1, "linewidths": 0}
+        style = {"s": 1e5 / len(speed), "cmap": "viridis", "vmin": 0, "vmax": 1, "linewidths": 0}
         dots = axes.scatter(*MICRO * particles.position.T, c=speed, rasterized=True, **style)
         _draw_discs(axes, result, time)
         axes.set(title=f"{what}, t = {MICRO * time:.1f} µs", ylabel="y (µm)", aspect="equal")
