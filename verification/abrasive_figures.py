@@ -105,7 +105,7 @@ def passing_wafer(data: Data) -> Figure:
         panels[0].plot(MICRO * place, pressure[sample] - pressure[sample].mean(), label=label, **style)
         panels[1].plot(MICRO * place, shear[sample], **style)
     panels[0].set(ylabel="wafer pressure - mean (Pa)")
-    panels[0].legend(fontsize=9)
+    panels[0].legend(fontsize=8, loc="upper left")
     panels[1].set(ylabel="wafer shear (Pa)", xlabel="x in the pad's frame (µm)")
     return figure
 
