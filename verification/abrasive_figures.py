@@ -131,7 +131,9 @@ def active_shear(data: Data) -> Figure:
     left.axvline(5 / weight.max(), color="grey", linestyle="--", label="5 % by weight")
     left.set(xlabel="concentration over 7.49 % (-)", ylabel="active shear frequency (-)", ylim=(0, 1.05))
     right.set(xlabel="cube root of concentration over 7.49 % (-)", title="up to 5 % by weight")
-    left.legend(fontsize=8)
+    members = sorted({row["members"] for row in rows})
+    left.set_title(f"{members[0]} to {members[-1]} members each; models of band {100 * rule.band:g} %")
+    left.legend(fontsize=8, loc="lower right")
     return figure
 
 
