@@ -59,7 +59,7 @@ def passing(data: Data) -> Figure:
     for axes, time, what in zip(panels, moments(result), ("in the gap", "beyond the gap"), strict=True):
         particles = result.particles(time)
         speed = np.linalg.norm(particles.velocity, axis=1)
-        style = {"s": 6e4 / len(speed), "cmap": "viridis", "vmin": 0, "vmax": 1, "linewidths": 0}
+        style = {"s": 1e5 / len(speed), "cmap": "viridis", "vmin": 0, "vmax": 1, "linewidths": 0}
         dots = axes.scatter(*MICRO * particles.position.T, c=speed, rasterized=True, **style)
         _draw_discs(axes, result, time)
         axes.set(title=f"{what}, t = {MICRO * time:.1f} µs", ylabel="y (µm)", aspect="equal")
@@ -105,7 +105,7 @@ def passing_wafer(data: Data) -> Figure:
         panels[0].plot(MICRO * place, pressure[sample] - pressure[sample].mean(), label=label, **style)
         panels[1].plot(MICRO * place, shear[sample], **style)
     panels[0].set(ylabel="wafer pressure - mean (Pa)")
-    panels[0].legend(fontsize=9)
+    panels[0].legend(fontsize=8, loc="upper left")
     panels[1].set(ylabel="wafer shear (Pa)", xlabel="x in the pad's frame (µm)")
     return figure
 
@@ -131,7 +131,9 @@ def active_shear(data: Data) -> Figure:
     left.axvline(5 / weight.max(), color="grey", linestyle="--", label="5 % by weight")
     left.set(xlabel="concentration over 7.49 % (-)", ylabel="active shear frequency (-)", ylim=(0, 1.05))
     right.set(xlabel="cube root of concentration over 7.49 % (-)", title="up to 5 % by weight")
-    left.legend(fontsize=8)
+    members = sorted({row["members"] for row in rows})
+    left.set_title(f"{members[0]} to {members[-1]} members each; models of band {100 * rule.band:g} %")
+    left.legend(fontsize=8, loc="lower right")
     return figure
 
 

@@ -63,8 +63,19 @@ def halves(runs: Sequence[Peaks], rule: Rule) -> dict[str, Any]:
     return {"later_less_earlier": float(difference.mean()), "interval": interval(difference)}
 
 
+def places(runs: Sequence[Peaks], rule: Rule, scene: dict[str, Any]) -> dict[str, float]:
+    """Shares of the active peaks by their distance from the top of the asperity."""
+    pad = next(wall for wall in scene["walls"] if wall["shape"] == "gaussian")
+    length = scene["domain"]["upper"][0]
+    active = [run.from_time(rule.settling).place[rule.active(run)] for run in runs if run.count > 0]
+    apart = np.concatenate(active) - pad["centre"]
+    apart = np.abs(apart - length * np.round(apart / length)) / pad["width"]
+    ends = {"within sigma / 2": (0, 0.5), "from there to 2 sigma": (0.5, 2), "beyond": (2, np.inf)}
+    return {name: float(np.mean((apart >= low) & (apart < high))) for name, (low, high) in ends.items()}
+
+
 def paired(coarse: Sequence[Peaks], fine: Sequence[Peaks]) -> dict[str, Any]:
-    """F_tau at the spacing `fine` less that at `coarse`, for members in common, each by its own threshold."""
+    """F_tau at `fine` less that at `coarse`, for members in common, each by its own threshold."""
     rules = Rule.of(coarse[0]), Rule.of(fine[0])
     mine = {(run.count, run.seed): rules[0].frequency(run) for run in coarse if run.count > 0}
     other = {(run.count, run.seed): rules[1].frequency(run) for run in fine if run.count > 0}
@@ -107,6 +118,8 @@ def tables(found: dict[str, Any]) -> str:
             found["halves"]["later_less_earlier"], *found["halves"]["interval"]
         ),
     ]
+    shares = ", ".join(f"{share:.3f} {name}" for name, share in found["places"].items())
+    lines.append(f"active peaks by distance from the top of the asperity: {shares}")
     for name, pair in found["spacings"].items():
         lines.append(f"against {name}: thresholds {pair['thresholds']} Pa, {len(pair['members'])} members in "
                      f"common, F_tau higher by {pair['mean_difference']:.3f}, interval {pair['interval']}, "
@@ -126,6 +139,7 @@ def report(csv: Path, others: Sequence[Path]) -> dict[str, Any]:
         "settled_from_s": settled_from(runs[0], rule),
         "sensitivity": sensitivity(runs, rule, scene, looks),
         "halves": halves(runs, rule),
+        "places": places(runs, rule, scene),
         "spacings": {path.stem: paired(read(path), runs) for path in others},
     }
 

@@ -21,6 +21,7 @@ import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -45,12 +46,13 @@ class Peaks:
     seed: int
     times: Array  # (n,) s, evenly spaced
     peak: Array  # (n,) Pa
+    place: Array  # (n,) m, where on the wafer that is, in the pad's frame
 
     def from_time(self, start: float) -> Peaks:
         kept = self.times > start * (1 + 1e-6)
         if np.count_nonzero(kept) < 2:
             raise DataError(f"{self.count} discs, seed {self.seed}: nothing is left after {start:g} s")
-        return Peaks(self.count, self.seed, self.times[kept], self.peak[kept])
+        return Peaks(self.count, self.seed, self.times[kept], self.peak[kept], self.place[kept])
 
 
 @dataclass(frozen=True)
@@ -105,10 +107,13 @@ def read_wafer(path: Path) -> tuple[Array, Array, Array, Array]:
     return times, x, pressure, shear
 
 
-def read_run(path: Path, count: int, seed: int) -> Peaks:
-    """The peaks of one result.h5; raises DataError as read_wafer does."""
-    times, _, _, shear = read_wafer(path)
-    return Peaks(count, seed, times, np.abs(shear).max(axis=1))
+def read_run(path: Path, count: int, seed: int, scene: dict[str, Any]) -> Peaks:
+    """The peaks of one result.h5 of a scene in which the pad rests; raises DataError as read_wafer does."""
+    times, x, _, shear = read_wafer(path)
+    largest = np.abs(shear).argmax(axis=1)
+    wafer = next(wall for wall in scene["walls"] if wall["name"] == PROBE)
+    place = (x[largest] + wafer["velocity"][0] * times) % scene["domain"]["upper"][0]
+    return Peaks(count, seed, times, np.abs(shear).max(axis=1), place)
 
 
 def count_of(case: Case, variant: str) -> int:
@@ -121,13 +126,13 @@ def collect(out: Path, spacing: float) -> list[Peaks]:
     DataError without the abrasive-free run.
     """
     free = load_case(FREE_CASE)
-    runs = [read_run(_result(free, FREE_VARIANT, None, spacing, out), 0, 0)]
+    runs = [read_run(_result(free, FREE_VARIANT, None, spacing, out), 0, 0, free.scene())]
     case = load_case(CASE)
     for variant in case.data["ensemble"]["variants"]:
         for seed in case.data["ensemble"]["seeds"]["paper"]:
             path = _result(case, variant, seed, spacing, out)
             if path.exists():
-                runs.append(read_run(path, count_of(case, variant), seed))
+                runs.append(read_run(path, count_of(case, variant), seed, case.scene()))
     return runs
 
 
@@ -137,19 +142,19 @@ def _result(case: Case, variant: str, seed: int | None, spacing: float, out: Pat
 
 
 def write(path: Path, runs: Iterable[Peaks], spacing: float, command: str) -> None:
-    """Comments, the times, then count, seed and peak(t) of each run; whole or not at all."""
+    """Comments, the times, then two lines for each run, peak and place; whole or not at all."""
     text = io.StringIO()
     runs = list(runs)
-    text.write(
-        "# Largest |wafer shear| (Pa) at the times (s) of the first row. Our own results, nobody's data:\n"
-    )
+    text.write("# Largest |wafer shear| (peak, Pa), and where it is in the pad's frame (place, um),\n")
+    text.write("# at the times (s) of the first row. Our own results, nobody's data:\n")
     text.write(f"# {command}\n# particle spacing {spacing:g} m\n")
     table = csv.writer(text, lineterminator="\n")
-    table.writerow(["count", "seed", *(f"{time:.6g}" for time in runs[0].times)])
+    table.writerow(["count", "seed", "quantity", *(f"{time:.6g}" for time in runs[0].times)])
     for run in runs:
         if not np.allclose(run.times, runs[0].times, rtol=1e-3, atol=0):
             raise DataError(f"{run.count} discs, seed {run.seed}: sampled at other times than the first run")
-        table.writerow([run.count, run.seed, *(f"{value:.2f}" for value in run.peak)])
+        table.writerow([run.count, run.seed, "peak", *(f"{value:.2f}" for value in run.peak)])
+        table.writerow([run.count, run.seed, "place", *(f"{1e6 * value:.1f}" for value in run.place)])
     partial = path.with_suffix(".partial")
     partial.write_text(text.getvalue())
     partial.replace(path)
@@ -159,18 +164,20 @@ def read(path: Path) -> list[Peaks]:
     """What `write` wrote; raises DataError for anything else."""
     try:
         rows = list(csv.reader(line for line in path.read_text().splitlines() if not line.startswith("#")))
-        times = require_series(f"the times of {path.name}", [float(text) for text in rows[0][2:]])
-        runs = [
-            Peaks(
-                int(row[0]), int(row[1]), times, require_series(path.name, [float(v) for v in row[2:]], times)
-            )
-            for row in rows[1:]
-        ]
+        times = require_series(f"the times of {path.name}", [float(text) for text in rows[0][3:]])
+        runs = [_run_of(path.name, times, *pair) for pair in zip(rows[1::2], rows[2::2], strict=True)]
     except (OSError, ValueError, IndexError) as error:
         raise DataError(f"{path}: {error}") from error
     if not runs or runs[0].count != 0:
         raise DataError(f"{path}: the first run must be the abrasive-free one")
     return runs
+
+
+def _run_of(name: str, times: Array, peak: list[str], place: list[str]) -> Peaks:
+    if peak[:2] != place[:2] or (peak[2], place[2]) != ("peak", "place"):
+        raise DataError(f"{name}: {peak[:3]} and {place[:3]} are not peak and place of one run")
+    values, places = (require_series(name, [float(v) for v in row[3:]], times) for row in (peak, place))
+    return Peaks(int(peak[0]), int(peak[1]), times, values, 1e-6 * places)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -90,7 +90,7 @@ def test_more_parameters_cost():
 def test_memory_of_a_square_wave():
     times = np.arange(1, 2001) * 1e-6
     states = np.repeat(np.random.default_rng(2).random(200) < 0.5, 10)  # uncorrelated after 10 samples
-    run = Peaks(4, 1, times, np.where(states, 2.0, 1.0))
+    run = Peaks(4, 1, times, np.where(states, 2.0, 1.0), np.zeros(len(times)))
     assert memory([run], Rule(1.0, 0.5, 0.0, 0.0)) == pytest.approx(1e-5, rel=0.35)
 
 
@@ -98,11 +98,13 @@ def ensemble(frequency_of, members=4):
     """Runs of passages at random times; the share of active time scatters about frequency_of(count)."""
     generator = np.random.default_rng(9)
     times = 8e-7 * np.arange(1, 151)
-    yield Peaks(0, 0, times, 287 + 0.3 * generator.standard_normal(150))
+    place = np.full(150, 2.75e-5)  # 1.5 sigma beside the asperity
+    yield Peaks(0, 0, times, 287 + 0.3 * generator.standard_normal(150), place)
     for count in (4, 7, 11, 14, 19, 22, 25, 28):
         for seed in range(1, members + 1):
             on = np.repeat(generator.random(15) < frequency_of(count), 10)
-            yield Peaks(count, seed, times, np.where(on, 330, 287) + 0.3 * generator.standard_normal(150))
+            peak = np.where(on, 330, 287) + 0.3 * generator.standard_normal(150)
+            yield Peaks(count, seed, times, peak, place)
 
 
 def test_report_of_a_saturating_ensemble(tmp_path):
@@ -112,6 +114,7 @@ def test_report_of_a_saturating_ensemble(tmp_path):
     assert found["result"]["rise"]["p"] < 0.01
     assert [row["count"] for row in found["result"]["rows"]] == [0, 4, 7, 11, 14, 19, 22, 25, 28]
     assert found["result"]["rows"][0]["mean"] == 0
+    assert list(found["places"].values()) == [0, 1, 0]
     assert found["spacings"]["ensemble"]["largest_difference"] == 0
     assert "1 - exp(-lambda n)" in tables(found)
 

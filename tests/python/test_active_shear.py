@@ -16,7 +16,8 @@ RULE = Rule(threshold=287.0)
 
 
 def peaks(values, count=4, seed=1):
-    return Peaks(count, seed, TIMES, np.broadcast_to(np.asarray(values, dtype=float), TIMES.shape))
+    peak = np.broadcast_to(np.asarray(values, dtype=float), TIMES.shape)
+    return Peaks(count, seed, TIMES, peak, np.full(len(TIMES), 2e-5))
 
 
 def free(noise=0.4, seed=7):
@@ -82,16 +83,17 @@ def test_peaks_survive_the_file(tmp_path):
     runs = read(path)
     assert [(run.count, run.seed) for run in runs] == [(0, 0), (4, 1)]
     np.testing.assert_allclose(runs[1].peak, 340)
+    np.testing.assert_allclose(runs[1].place, 2e-5)
     np.testing.assert_allclose(runs[0].times, TIMES, rtol=1e-5)
     assert "a command" in path.read_text()
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize("line", ["4,1,340", "4,1" + ",nan" * 150, "4,x" + ",1" * 150])
+@pytest.mark.parametrize("line", ["4,1,peak,340", "4,1,peak" + ",nan" * 150, "4,x,peak" + ",1" * 150])
 def test_a_damaged_file_is_refused(tmp_path, line):
     path = tmp_path / "ensemble.csv"
     write(path, [free()], 2.5e-7, "a command")
-    path.write_text(path.read_text() + line + "\n")
+    path.write_text(path.read_text() + line + "\n" + "4,1,place" + ",20" * 150 + "\n")
     with pytest.raises(DataError):
         read(path)
 
@@ -110,11 +112,14 @@ def test_the_peak_is_the_largest_magnitude_along_the_wafer(tmp_path):
     with h5py.File(path, "w") as file:
         file["probes/wafer/time"], file["probes/wafer/x"] = [1.0, 2.0], np.arange(5.0)
         file["probes/wafer/pressure"], file["probes/wafer/shear"] = np.zeros((2, 5)), shear
-    assert read_run(path, 4, 1).peak.tolist() == [300, 300]
+    scene = {"walls": [{"name": "wafer", "velocity": [-1.0, 0.0]}], "domain": {"upper": [4.0, 1.0]}}
+    run = read_run(path, 4, 1, scene)
+    assert run.peak.tolist() == [300, 300]
+    assert run.place.tolist() == [1, 0]  # x = 2 of the wafer, after 1 s and 2 s at -1 m/s
     with h5py.File(path, "a") as file:
         file["probes/wafer/shear"][1, 4] = np.nan
     with pytest.raises(DataError, match="not finite"):
-        read_run(path, 4, 1)
+        read_run(path, 4, 1, scene)
 
 
 def test_no_abrasive_free_run_no_threshold(tmp_path):
