@@ -228,8 +228,11 @@ def observed_order(spacings: Sequence[float], errors: Sequence[float]) -> float 
     return float(np.polyfit(np.log(spacings), np.log(errors), 1)[0])
 
 
-def require_reference_quality(error_estimate: float, kind: str = "exact") -> None:
-    """Refuses a reference that has not shown itself to be within 0.1 %, or 2 % for a check `independent`."""
-    limit = LARGEST_INDEPENDENT_ERROR if kind == "independent" else LARGEST_REFERENCE_ERROR
+def require_reference_quality(error_estimate: float, kind: str = "exact", tolerance: float = 0.0) -> None:
+    """Refuses a reference that has not shown itself to be within 0.1 % or a tenth of the check's tolerance, or
+    2 % for a check `independent`.
+    """
+    of_numbers = max(LARGEST_REFERENCE_ERROR, 0.1 * tolerance)
+    limit = LARGEST_INDEPENDENT_ERROR if kind == "independent" else of_numbers
     if not error_estimate <= limit:
         raise DataError(f"the reference's own error is {error_estimate:.3g}, above {limit:g}")

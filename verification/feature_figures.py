@@ -29,7 +29,7 @@ def feature_sample(data: Data) -> Figure:
         check, result = _checks(data, variant, SAMPLE)[0], data.result(variant)
         start, end = check.window or (0.0, result.end_time)
         fine = np.linspace(start, end, 401)
-        truth = at_probe(trusted(data.reference(variant), check.kind), result, check.at, check.field, fine)
+        truth = at_probe(trusted(data.reference(variant), check), result, check.at, check.field, fine)
         times, values = samples(result, check.at, check.field)
         inside = times >= start - 1e-3 * (end - start)
         spacing = data.entry(variant.name)["spacing_m"]
@@ -58,7 +58,7 @@ def feature_fields(data: Data) -> Figure:
     for number, variant in enumerate(variants):
         checks, result = _checks(data, variant, FIELD), data.result(variant)
         moments = [result.particles(check.time) for check in checks]
-        reference = trusted(data.reference(variant), checks[0].kind)
+        reference = trusted(data.reference(variant), checks[0])
         truths = [reference.pressure(*moment.position.T, moment.time) for moment in moments]
         truths = [truth - truth.mean() for truth in truths]
         limit = float(np.quantile(np.abs(np.concatenate(truths)), 0.995))

@@ -51,10 +51,10 @@ def reduced(check: Check, values: Array) -> float:
     return float(REDUCTIONS[check.statistic](values - values.mean() if check.subtract_mean else values))
 
 
-def trusted(reference: Reference | None, kind: str) -> Reference:
+def trusted(reference: Reference | None, check: Check) -> Reference:
     if reference is None:
         raise DataError("there is no reference")
-    require_reference_quality(reference.error_estimate, kind)
+    require_reference_quality(reference.error_estimate, check.kind, check.tolerance)
     return reference
 
 
@@ -71,7 +71,7 @@ def _at_particles(check: Check, result: Result, reference: Reference | None) -> 
     values = getattr(particles, check.field)
     if check.value:
         return values, np.clip(values, min(check.value), max(check.value))
-    field = getattr(trusted(reference, check.kind), check.field)
+    field = getattr(trusted(reference, check), check.field)
     return values, field(particles.position[:, 0], particles.position[:, 1], particles.time)
 
 
@@ -81,7 +81,7 @@ def _along_wall(
     wall = check.at.removeprefix("wall:")
     mine = result.wall(wall)
     if not others:
-        field = getattr(trusted(reference, check.kind), f"wall_{check.field}")
+        field = getattr(trusted(reference, check), f"wall_{check.field}")
         return getattr(mine, check.field), field(wall, mine.x, mine.time)
     theirs = others[0].wall(wall)
     if mine.x.shape != theirs.x.shape or not np.allclose(mine.x, theirs.x, rtol=1e-9, atol=0):
@@ -124,7 +124,7 @@ def _over_time(
         return values, _interpolated(samples(others[0], check.at, check.field), times)
     if check.repeats:
         return values, _interpolated(series, times - check.repeats)
-    truth = trusted(reference, check.kind)
+    truth = trusted(reference, check)
     if check.at.startswith(("wall:", "point:")):
         return values, at_probe(truth, result, check.at, check.field, times)
     if check.at.startswith("disc:"):

@@ -14,9 +14,7 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double safety = 1.25;         // of an error whose order was observed [roache1994]
 constexpr double scatter_safety = 2;    // of differences without an order
-constexpr double standard_errors = 2;   // in a band: 95 % of normal noise
 constexpr double scheme_order = 2;      // the most that is ever extrapolated with
 constexpr double least_order = 0.5;     // slower extrapolations go too far to be believed [eca2014]
 constexpr double most_order = 6;        // of the search

@@ -6,6 +6,9 @@
 
 namespace slurry {
 
+inline constexpr double safety = 1.25;       // of an error whose order was observed [roache1994]
+inline constexpr double standard_errors = 2; // in a band: 95 % of normal noise
+
 struct GridValue {
     double spacing; // m
     double value;   // in the quantity's unit

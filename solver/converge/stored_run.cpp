@@ -55,9 +55,12 @@ class Collector {
 
     std::vector<Quantity> collect() {
         if (scene_.start.arrangement != Arrangement::empty) {
-            add("flow", "kinetic_energy", "J/m", Kind::energy, time_, file_.table("/series/kinetic_energy").values);
-            add("flow", "momentum_x", "kg/s", Kind::momentum, time_, file_.table("/series/momentum_x").values);
-            add("flow", "momentum_y", "kg/s", Kind::momentum, time_, file_.table("/series/momentum_y").values);
+            add("flow", "kinetic_energy", "J/m", Kind::energy, time_,
+                file_.table("/series/kinetic_energy").values);
+            add("flow", "momentum_x", "kg/s", Kind::momentum, time_,
+                file_.table("/series/momentum_x").values);
+            add("flow", "momentum_y", "kg/s", Kind::momentum, time_,
+                file_.table("/series/momentum_y").values);
         }
         for (const ProbeScene& probe : scene_.probes) {
             const std::string group = "/probes/" + probe.name + "/";

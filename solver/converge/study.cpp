@@ -23,8 +23,6 @@ constexpr double stiffening = 2;
 
 // The error of a sound speed c goes like 1 / c^2; so much of the difference to `stiffening` c is all of it.
 constexpr double whole_of_difference = stiffening * stiffening / (stiffening * stiffening - 1);
-constexpr double safety = 1.25;
-constexpr double standard_errors = 2;
 
 // The scene as the study runs it; what is wrong with a coarse one is known before the first run.
 Scene scene_at(const SceneReader& read, double spacing, double sound_speed_factor) {

@@ -30,9 +30,9 @@ Values values_of(const std::string& resolved) {
             const std::string key = line.substr(0, equals);
             const std::string value = line.substr(equals + 3);
             if (key == "name") {
-                table += "." + value.substr(1, value.size() - 2);
+                table += fmt::format(".{}", value.substr(1, value.size() - 2));
             }
-            values[table + "." + key] = value;
+            values[fmt::format("{}.{}", table, key)] = value;
         }
     }
     values.erase("output.checkpoint_interval");

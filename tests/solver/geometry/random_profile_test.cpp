@@ -7,7 +7,7 @@
 namespace slurry {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double period = 4e-5;
 
 double height(const std::vector<Harmonic>& waves, double x) {
