@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -54,6 +55,20 @@ PartialFile::~PartialFile() {
         return;
     ::unlink(path_.c_str());
     ::close(descriptor_);
+}
+
+void PartialFile::require_space(std::uintmax_t bytes) const {
+    struct stat now {};
+    if (::fstat(descriptor_, &now) != 0)
+        fail(path_, "look at the file");
+    const bool fits = ::fallocate(descriptor_, 0, now.st_size, static_cast<off_t>(bytes)) == 0 ||
+                      errno == EOPNOTSUPP || errno == ENOSYS; // a file system that cannot tell
+    const int reason = errno;
+    const bool as_before = ::ftruncate(descriptor_, now.st_size) == 0;
+    if (!fits)
+        errno = reason;
+    if (!fits || !as_before)
+        fail(path_, fmt::format("write {} bytes", bytes));
 }
 
 void PartialFile::write(std::string_view text) {

@@ -1,5 +1,6 @@
 #pragma once
 // A file that appears under its name only as a whole.
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -16,6 +17,9 @@ class PartialFile {
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+    // Finds out whether the file can grow by so many bytes, and leaves it as it is. HDF5 1.10 crashes when it
+    // learns of a full disk in the middle of a copy.
+    void require_space(std::uintmax_t bytes) const;
     void write(std::string_view text);
     // To the disk; errors that the system kept for later (a full disk, a quota) come to light here.
     void synchronise();

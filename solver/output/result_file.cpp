@@ -159,6 +159,12 @@ void ResultFile::set_attribute(std::string_view name, double value) {
     implementation_->writer.set_attribute("/run", std::string(name), value);
 }
 
+std::uintmax_t ResultFile::size() const {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(implementation_->partial.path(), error);
+    return error ? 0 : size;
+}
+
 void ResultFile::copy_to(Hdf5Writer& checkpoint) {
     Hdf5Writer& writer = implementation_->writer;
     writer.flush();
@@ -170,6 +176,7 @@ void ResultFile::copy_to(Hdf5Writer& checkpoint) {
 }
 
 void ResultFile::restore(const Hdf5Reader& checkpoint) {
+    implementation_->partial.require_space(std::filesystem::file_size(checkpoint.name()));
     Hdf5Writer& writer = implementation_->writer;
     for (const std::string group : groups) {
         if (writer.has(group))

@@ -2,6 +2,7 @@
 // The one output file of a run, result.h5, and result.xdmf beside it for ParaView.
 #include "solver/scene/scene.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -64,6 +65,7 @@ class ResultFile {
     void set_attribute(std::string_view name, double value);
 
     // Copies all that was recorded into the group /result of a checkpoint, and goes on from there.
+    [[nodiscard]] std::uintmax_t size() const; // bytes, until now
     void copy_to(Hdf5Writer& checkpoint);
     void restore(const Hdf5Reader& checkpoint);
 

@@ -150,10 +150,18 @@ RunIdentity identity_of(const Hdf5Reader& reader) {
             reader.text("/", "files")};
 }
 
+// More than a checkpoint takes: the lists' origin is smaller than the particles.
+std::uintmax_t bytes_needed(const RunState& state) {
+    constexpr std::uintmax_t hdf5 = std::uintmax_t{1} << 20U;
+    const Particles& particles = state.particles;
+    return state.result.size() + 2 * (particles.fluid.bytes() + particles.dummies.bytes()) + hdf5;
+}
+
 } // namespace
 
 void write_checkpoint(PartialFile& file, const RunIdentity& identity, const RunState& state,
                       const std::filesystem::path& scene) {
+    file.require_space(bytes_needed(state));
     Hdf5Writer writer(file.path(), seal_size);
     writer.set_attribute("/", "version", identity.version);
     writer.set_attribute("/", "arithmetic", identity.arithmetic);
