@@ -47,7 +47,8 @@ class Interactions {
 // As wide as the machine's vectors, or with plain numbers (the reference that the wide loops are tested
 // against).
 enum class LoopWidth : unsigned char { native, plain };
-// Whether this build has the pair loops of a kernel: builds for the sanitizers and for counting have one only.
+// Whether this build has the pair loops of a kernel: builds for the sanitizers and for counting have one
+// only.
 [[nodiscard]] constexpr bool is_built([[maybe_unused]] KernelShape kernel) {
 #ifdef SLURRY_ONLY_KERNEL
     return kernel == KernelShape::SLURRY_ONLY_KERNEL;
