@@ -78,7 +78,8 @@ def read_stored(file: Path) -> Stored:
             len(tables["field"]), arrays["wall"].shape[1], -1
         )
         arrays["points"] = arrays["points"].reshape(-1, 2)
-        arrays["at_points"] = np.array(tables["point"], dtype=float).T.reshape(len(arrays["points"]), -1)
+        shape = len(arrays["points"]), len(arrays["wall"])
+        arrays["at_points"] = np.array(tables["point"], dtype=float).T.reshape(shape)
         if not all(np.isfinite(array).all() for array in arrays.values()):
             raise ValueError("it has values that are not finite")
     except (KeyError, OSError, ValueError) as error:
