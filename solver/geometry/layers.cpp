@@ -11,7 +11,8 @@ namespace slurry {
 namespace {
 
 // The curve that runs at a fixed depth behind a wall: the wall's leaves moved along their normals, and arcs
-// about the kinks where these part. Where the solid is concave it may run back on itself.
+// about the kinks where these part. About kinks and tips sharper than it is deep it runs back on
+// itself.
 class OffsetCurve {
   public:
     OffsetCurve(const Wall& wall, double depth) : wall_(wall), depth_(depth) {

@@ -128,7 +128,7 @@ TEST_P(AnyWall, SamplesAreEvenAndOnTheWall) {
         EXPECT_LT(std::abs(wall.nearest(points[i].position).distance), 1e-12);
         if (i > 0) {
             EXPECT_LE((points[i].position - points[i - 1].position).norm(),
-                      wall.length() / 1000 * (1 + 1e-12));
+                      wall.length() / 1000 * (1 + 1e-9)); // the arcs are sums by quadrature
         }
     }
 }

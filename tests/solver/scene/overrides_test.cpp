@@ -46,7 +46,7 @@ TEST_F(Overrides, AreNamedInRefusals) {
     EXPECT_EQ(refusal(full_scene, {"walls.lime.velocity=[0, 0]"}),
               "--set walls.lime.velocity=[0, 0]: found no \"lime\" in walls, allowed line, cosine, gaussian, "
               "arc, sine, "
-              "profile, nearest known key walls.line.velocity");
+              "profile, random, nearest known key walls.line.velocity");
     EXPECT_EQ(refusal(full_scene, {"domain.upper=[-1, 4]"}).substr(0, 28), "--set domain.upper=[-1, 4]: ");
     EXPECT_EQ(refusal(full_scene, {"numerics.particle_spacing=1e-5"}).substr(0, 38),
               "--set numerics.particle_spacing=1e-5: ");

@@ -16,7 +16,7 @@ TEST_F(ReadScene, FillsTheScene) {
     EXPECT_EQ(scene.fluid.density, 1000);
     EXPECT_EQ(scene.numerics.density_diffusion, 0.1);
     EXPECT_EQ(scene.start.velocity, InitialVelocity::shear);
-    ASSERT_EQ(scene.walls.size(), 6U);
+    ASSERT_EQ(scene.walls.size(), 7U);
     EXPECT_EQ(std::get<LineShape>(scene.walls[0].shape).to, Vector(4, 4));
     EXPECT_EQ(scene.walls[0].fluid_side, FluidSide::below);
     EXPECT_EQ(std::get<CosineShape>(scene.walls[1].shape).amplitude, -0.1);

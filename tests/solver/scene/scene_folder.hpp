@@ -111,7 +111,7 @@ count = 3
 radius = 0.4
 
 [[walls]]
-name = "rough"
+name = "random"
 shape = "random"
 fluid_side = "above"
 mean_height = 0.5
