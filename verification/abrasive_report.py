@@ -90,6 +90,10 @@ def paired(coarse: Sequence[Peaks], fine: Sequence[Peaks]) -> dict[str, Any]:
             "interval": interval(difference)}  # fmt: skip
 
 
+def _with_interval(found: Sequence[float]) -> str:
+    return "{:.4f} ({:.4f} to {:.4f})".format(*found) if len(found) > 1 else f"{found[0]:.4f} (no interval)"
+
+
 def tables(found: dict[str, Any]) -> str:
     result = found["result"]
     rows = [("", (f"{r['count']}", f"{r['weight_percent']:.2f}", f"{r['members']}", f"{r['mean']:.3f}",
@@ -112,8 +116,8 @@ def tables(found: dict[str, Any]) -> str:
         "abrasive-free run within the band from {:.3g} s on".format(found["settled_from_s"]),
         "rise: Kendall's tau {kendall_tau:.3f}, one-sided p {p:.2g}".format(**result["rise"]),
         "exponent up to 5 %: {:.3f} ({:.3f} to {:.3f})".format(*result["exponent_before"]),
-        "slope up to 5 %: {:.4f} ({:.4f} to {:.4f}) per %".format(*result["slope_before_per_percent"]),
-        "slope from 5 % on: {:.4f} ({:.4f} to {:.4f}) per %".format(*result["slope_after_per_percent"]),
+        f"slope up to 5 %: {_with_interval(result['slope_before_per_percent'])} per %",
+        f"slope from 5 % on: {_with_interval(result['slope_after_per_percent'])} per %",
         "second half less first half: {:.3f} ({:.3f} to {:.3f})".format(
             found["halves"]["later_less_earlier"], *found["halves"]["interval"]
         ),

@@ -132,15 +132,18 @@ def exponent(weight: Array, frequency: Array, looks: float) -> tuple[float, floa
     return float(grid[np.argmax(profile)]), float(inside.min()), float(inside.max())
 
 
-def slope(weight: Array, frequency: Array) -> tuple[float, float, float]:
-    """d F_tau / d w per % by least squares and its 95 % bootstrap interval, over members."""
+def slope(weight: Array, frequency: Array) -> tuple[float, ...]:
+    """d F_tau / d w per % by least squares; its 95 % bootstrap interval where every w has FEWEST members."""
     generator, slopes = np.random.default_rng(SEED), []
     groups = [np.flatnonzero(weight == w) for w in np.unique(weight)]
+    best = float(np.polyfit(weight, frequency, 1)[0])
+    if min(map(len, groups)) < FEWEST:
+        return (best,)
     for _ in range(RESAMPLES // 5):
         drawn = np.concatenate([generator.choice(group, len(group)) for group in groups])
         slopes.append(np.polyfit(weight[drawn], frequency[drawn], 1)[0])
     low, high = np.quantile(slopes, [0.025, 0.975])
-    return float(np.polyfit(weight, frequency, 1)[0]), float(low), float(high)
+    return best, float(low), float(high)
 
 
 def analyse(runs: Sequence[Peaks], scene: dict[str, Any], rule: Rule) -> dict[str, Any]:

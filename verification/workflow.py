@@ -25,7 +25,7 @@ from verification.run_one import member
 
 CASES = ROOT / "workflow.yaml"
 SECONDS_PER_WORK = (
-    4e-8  # of a core, for a unit of Run.expected_work, until this machine has made runs of its own
+    6e-8  # of a core, for a unit of Run.expected_work, until this machine has made runs of its own
 )
 _MEMBER = re.compile(r"(?P<variant>.+?)(_seed_(?P<seed>\d+))?")
 

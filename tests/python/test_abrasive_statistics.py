@@ -14,6 +14,7 @@ from verification.abrasive_statistics import (
     log_likelihood,
     memory,
     ranked,
+    slope,
     weight_percent,
 )
 from verification.active_shear import CASE, Peaks, Rule, write
@@ -47,6 +48,13 @@ def test_interval_covers_the_mean_as_often_as_it_says():
 
 def test_two_members_have_no_interval():
     assert interval(np.array([0.1, 0.2])) is None
+
+
+def test_a_slope_of_single_members_has_no_interval():
+    weight = np.array([1.0, 2.0, 3.0])
+    assert slope(weight, 0.1 * weight) == pytest.approx((0.1,))
+    best, low, high = slope(np.repeat(weight, 3), 0.1 * np.repeat(weight, 3) + np.tile([-0.01, 0, 0.01], 3))
+    assert low < best < high
 
 
 def test_likelihood_is_a_distribution():
