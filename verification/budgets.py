@@ -141,6 +141,8 @@ def energy_growth(result: Result) -> Series:
     """
     energy, _, _ = _motion(result)
     quarter = len(energy) // 4
+    if quarter < 2:
+        raise DataError(f"{len(energy)} samples are too few to tell the energy's growth")
     before, after = energy[-2 * quarter : -quarter].mean(), energy[-quarter:].mean()
     return _single(result, (after - before) / before if before > 0 else float(after > 0))
 

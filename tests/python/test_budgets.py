@@ -138,6 +138,14 @@ def test_energy_growth_compares_the_last_quarters(tmp_path):
     )
 
 
+def test_energy_growth_needs_samples(tmp_path):
+    few = np.linspace(0, END, 7)
+    series = {"kinetic_energy": few, "momentum_x": few}
+    result = write(tmp_path, {"d": fields(np.zeros((7, 2)))}, times=few, series=series, run=RUN, scene=SCENE)
+    with pytest.raises(DataError, match="7 samples are too few"):
+        BUDGETS["energy_growth"](result)
+
+
 def test_density_drift(tmp_path):
     density = 2 + 0.02 * TIMES
     assert value("density_drift", fluid(tmp_path, {"mean_density": density})) == pytest.approx(0.01)
