@@ -52,23 +52,10 @@ std::optional<Scene> accepted(const std::string& text) {
     return std::nullopt;
 }
 
-// With a time step far beyond what is stable, the watchdog has to bark: silence above means something.
-TEST(RandomFlows, OneThatBreaksIsSeen) {
-    RandomSource random(1);
-    std::optional<Scene> scene;
-    while (!scene || scene->start.velocity == InitialVelocity::rest) {
-        scene = accepted(random_flow(random));
-    }
-    scene->output.end_time *= 20;
-    scene->numerics.acoustic_cfl *= 20;
-    scene->numerics.viscous_cfl *= 20;
-    EXPECT_THROW(run_scene(*scene, {output_folder(), 1, true, true}), RunError);
-    std::filesystem::remove_all(output_folder());
-}
-
 // A known shortfall, for which the generator leaves wall_continuity alone where there are discs: extrapolated
-// velocities make a free disc unstable at the default time step; it runs with an acoustic_cfl of 0.25. When
-// this no longer throws, the generator need not be careful.
+// velocities make a free disc that is not much heavier than the fluid unstable at the default time step; it
+// runs with an acoustic_cfl of 0.25. When this no longer throws, the generator need not be careful, and
+// another flow has to show that one that breaks is seen.
 TEST(RandomFlows, KnownShortfallOfExtrapolatedContinuityWithAFreeDisc) {
     const std::string text = R"([domain]
 lower = [0, 0]
