@@ -68,7 +68,7 @@ def feature_fields(data: Data) -> Figure:
                 values = truth if name != "SPH" else moment.pressure - moment.pressure.mean()
                 style = {"cmap": "RdBu_r", "vmin": -limit, "vmax": limit, "linewidths": 0}
                 x, y = MICRO * moment.position.T
-                dots = axes.scatter(x, y, c=values, s=160 / len(x) ** 0.5, **style)
+                dots = axes.scatter(x, y, c=values, s=260 / len(x) ** 0.5, **style)
                 axes.set(aspect="equal", title=f"{variant.name}, {name}, t0 + {_share(check, checks):.1f} T")
                 axes.title.set_fontsize(9)
                 axes.grid(visible=False)
