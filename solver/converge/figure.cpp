@@ -18,7 +18,7 @@ class Axes {
   public:
     Axes(const Assessment& quantity, std::size_t index)
         : x0_(static_cast<double>(index % columns) * panel_width),
-          y0_(static_cast<double>(index / columns) * panel_height),
+          y0_(panel_height * std::floor(static_cast<double>(index) / columns)),
           most_spacing_(1.05 * quantity.values.front().spacing) {
         for (const GridValue& at : quantity.values) {
             include(at.value);
@@ -103,8 +103,8 @@ std::string curve(const Axes& axes, const Assessment& quantity) {
         const double value = std::clamp(estimate.extrapolated + rise, axes.low(), axes.high());
         path += fmt::format("{}{:.1f} {:.1f}", k == 0 ? "M" : "L", axes.x(spacing), axes.y(value));
     }
-    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#0072b2\"/>\n", path) +
-           circle(axes.x(0), axes.y(quantity.extrapolated()), "fill=\"white\" stroke=\"#0072b2\"");
+    return fmt::format(R"(<path d="{}" fill="none" stroke="#0072b2"/>)", path) +
+           circle(axes.x(0), axes.y(quantity.extrapolated()), R"(fill="white" stroke="#0072b2")");
 }
 
 std::string band(const Axes& axes, const Assessment& quantity) {
@@ -123,10 +123,10 @@ std::string panel(const Assessment& quantity, std::size_t index) {
     std::string svg = band(axes, quantity) + frame(axes, quantity) + curve(axes, quantity);
     if (quantity.stiffer) {
         svg += circle(axes.x(quantity.values[quantity.values.size() - 2].spacing),
-                      axes.y(quantity.stiffer->value), "fill=\"none\" stroke=\"#d55e00\"");
+                      axes.y(quantity.stiffer->value), R"(fill="none" stroke="#d55e00")");
     }
     for (const GridValue& at : quantity.values) {
-        svg += circle(axes.x(at.spacing), axes.y(at.value), "fill=\"black\"");
+        svg += circle(axes.x(at.spacing), axes.y(at.value), R"(fill="black")");
     }
     return svg;
 }

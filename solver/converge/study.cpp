@@ -173,6 +173,7 @@ Study run_study(const SceneReader& read, const StudyOptions& options) {
     const std::vector<double> spacings =
         study_spacings(wanted.domain, wanted.numerics.particle_spacing, options.spacings);
     std::vector<Scene> scenes;
+    scenes.reserve(spacings.size());
     for (const double spacing : spacings) {
         scenes.push_back(scene_at(read, spacing, 1));
     }
