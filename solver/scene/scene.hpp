@@ -82,6 +82,7 @@ struct Numerics {
     double density_diffusion = 0; // delta of delta-SPH; 0 = off
     bool gradient_correction = true;
     bool advection_tensor = true;
+    bool keep_mean_density = true;
     PressureMean pressure_mean = PressureMean::density_weighted;
     DummyLayout wall_dummies = DummyLayout::curve;
     DiscDummies disc_dummies = DiscDummies::lattice;

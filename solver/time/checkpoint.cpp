@@ -182,8 +182,8 @@ void write_checkpoint(PartialFile& file, const RunIdentity& identity, const RunS
 void read_checkpoint(const std::filesystem::path& path, const RunIdentity& identity, const RunState& state) {
     const Hdf5Reader reader(path);
     if (const std::string found = difference(identity_of(reader), identity); !found.empty()) {
-        throw ReadError(fmt::format(
-            "{}: the checkpoint has {}; a run goes on with what it began with only", path.string(), found));
+        throw ReadError(fmt::format("{}: the checkpoint has {}; a run goes on with what it began with only",
+                                    path.string(), found));
     }
     read_particles(reader, state.particles);
     state.step = read_count(reader, "/state", "step", most_steps);

@@ -43,8 +43,8 @@ FoundCheckpoint find_checkpoint(const std::filesystem::path& folder) {
         return {previous_in(folder), fmt::format("{}; going on from the one before", fault)};
     }
     throw ReadError(fmt::format("{}: no checkpoint to resume from: {}; {}; start the run again without "
-                                      "--resume",
-                                      folder.string(), fault, fault_before));
+                                "--resume",
+                                folder.string(), fault, fault_before));
 }
 
 CheckpointFolder::CheckpointFolder(const std::filesystem::path& folder, double interval,

@@ -118,7 +118,8 @@ class Run {
                                                      contacts_.highest_frequency(particles_.discs)))),
           time_step_(scene.output.end_time / static_cast<double>(steps_)),
           check_interval_(std::max(1L, steps_ / checks_per_run)), forces_{*sums_, contacts_, scene.fluid,
-                                                                          scene.numerics.sound_speed},
+                                                                          scene.numerics.sound_speed,
+                                                                          scene.numerics.keep_mean_density},
           recorder_(scene, region_, file_, steps_, time_step_),
           checkpoints_(options.folder, scene.output.checkpoint_interval, options.resume_from),
           state_{step_, particles_, *sums_, contacts_, file_, clock_} {
@@ -176,7 +177,7 @@ class Run {
         read_checkpoint(options_.resume_from, identity_, state_);
         if (step_ >= steps_) {
             throw ReadError(fmt::format("{}: is of step {}, and the run has {}",
-                                              options_.resume_from.string(), step_, steps_));
+                                        options_.resume_from.string(), step_, steps_));
         }
         if (!options_.quiet) {
             fmt::print(std::cout, "resumed at step {} of {}\n", step_, steps_);

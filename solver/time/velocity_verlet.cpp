@@ -39,6 +39,20 @@ void update_density(FluidParticles& fluid, std::size_t i, double time) {
     fluid.density[i] += time * fluid.density_rate[i];
 }
 
+// The fluid's mass and the room that walls and discs leave it stay the same, and so does its mean density.
+// The sums over pairs miss that by a little, which adds up over ten thousands of steps. One thread: the order
+// of the sum must not depend on how many there are.
+void keep_mean_density(FluidParticles& fluid) {
+    const std::size_t count = fluid.size();
+    double sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (std::size_t i = 0; i < count; ++i) {
+        sum += fluid.density_rate[i];
+    }
+    const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
+    for_each(fluid, [&](std::size_t i) { fluid.density_rate[i] -= mean; });
+}
+
 // Walls and discs keep pace with the fluid.
 void move_solids(Particles& particles, double time) {
     particles.time += time;
@@ -104,6 +118,9 @@ void advance(Particles& particles, Forces& forces, double time_step, PhaseClock&
         const PhaseClock::Scope scope(clock, "density rate");
         forces.interactions.compute_density_rate(
             particles); // at the half step, so that density is second order in time
+        if (forces.keep_mean_density) {
+            keep_mean_density(fluid);
+        }
     }
     for_each(fluid, [&](std::size_t i) {
         update_density(fluid, i, time_step);

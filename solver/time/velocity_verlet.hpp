@@ -15,6 +15,7 @@ struct Forces {
     DiscContacts& contacts;
     Fluid fluid;
     double sound_speed; // m/s
+    bool keep_mean_density = false;
 };
 
 // Accelerations of the start; needed once before the first step.
