@@ -98,7 +98,7 @@ def test_the_issues_tolerances():
         ("disc_conservation", "momentum_step", 1e-12, 1e-12),
         ("disc_flight", "position", 1e-12, 1e-12),
         ("disc_still", "disc_speed", 1e-6, 1e-6),
-        ("disc_array_drag", "drag", 0.03, 0.015),
+        ("disc_array_drag", "drag", 0.01, 0.01),
         ("disc_rotating", "torque", 0.02, 0.01),
         ("disc_settling", "greatest_fall_speed", 0.03, 0.015),
         ("disc_settling", "height", 3e-4, 2e-4),
