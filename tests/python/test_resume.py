@@ -86,7 +86,9 @@ def run_with_kills(scene: Path, folder: Path, most: int, generator: random.Rando
         except subprocess.TimeoutExpired:
             process.kill()
         complaint = process.communicate()[1]
-        assert complaint == "" and process.returncode in (0, -signal.SIGKILL), complaint
+        # Killed between two renames there is only the one before.
+        assert complaint == "" or complaint.endswith("is not there; going on from the one before\n")
+        assert process.returncode in (0, -signal.SIGKILL)
         if process.returncode == 0:
             break
     return kill
