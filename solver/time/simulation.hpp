@@ -12,7 +12,7 @@ struct RunOptions {
     int threads = 1;
     bool quiet = false;
     bool overwrite = true;
-    std::filesystem::path resume_from; // a checkpoint in the folder; empty: from the start
+    std::filesystem::path resume_from = {}; // a checkpoint in the folder; empty: from the start
 };
 
 struct RunSummary {
