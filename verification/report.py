@@ -188,8 +188,8 @@ def write(out: Path, references: Any) -> list[Picture]:
 
 
 def write_readme(readme: Path, results: dict[str, Any]) -> None:
-    """Replaces what is between the markers of a Markdown file by the table of results: of the default scheme, without
-    the hard cases, which are many rows of what a reader expects.
+    """Replaces what is between the markers of a Markdown file by the table of results: of the default scheme,
+    without the hard cases, which are many rows of what a reader expects.
     """
     text = readme.read_text()
     if any(text.count(marker) != 1 for marker in MARKERS) or text.index(MARKERS[0]) > text.index(MARKERS[1]):
@@ -200,7 +200,7 @@ def write_readme(readme: Path, results: dict[str, Any]) -> None:
     hard = {path.name for path in (ROOT / "stability").iterdir()}
     chosen = [c for c in results["cases"] if c["scheme"] == "default" and c["case"] not in hard]
     table = verification_table(results | {"cases": chosen}).markdown()
-    title = f"Level {results['level']}: {headline(results)}. The table has the default scheme; the report has all."
+    title = f"Level {results['level']}: {headline(results)}. Here the default scheme; the report has all."
     readme.write_text(f"{before}{MARKERS[0]}\n{title}\n\n{table}{MARKERS[1]}{rest.split(MARKERS[1])[1]}")
 
 

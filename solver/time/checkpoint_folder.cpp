@@ -91,8 +91,11 @@ bool CheckpointFolder::has_foreign() const {
 
 void CheckpointFolder::remove() const {
     std::error_code error;
-    std::filesystem::remove(current_, error);
-    std::filesystem::remove(previous_, error);
+    std::filesystem::path partial = current_;
+    partial += ".partial"; // what a run left that was killed while it wrote one
+    for (const auto& path : {current_, previous_, partial}) {
+        std::filesystem::remove(path, error);
+    }
 }
 
 } // namespace slurry

@@ -12,7 +12,7 @@ struct RunOptions {
     int threads = 1;
     bool quiet = false;
     bool overwrite = true;
-    std::filesystem::path resume_from{}; // a checkpoint in the folder; empty: from the start
+    std::filesystem::path resume_from = {}; // a checkpoint in the folder; empty: from the start
 };
 
 struct RunSummary {
@@ -21,7 +21,7 @@ struct RunSummary {
 };
 
 // Runs the scene and writes result.h5 and result.xdmf into the folder; a state that goes wrong into
-// failed.h5. Throws GeometryError, OutputError, ReadError, RunError, RunInterrupted.
+// failed.h5. Throws GeometryError, OutputError, CheckpointError, RunError, RunInterrupted.
 RunSummary run_scene(const Scene& scene, const RunOptions& options);
 
 // What `slurry info` prints: particles, steps, and which terms run and why. Throws GeometryError.

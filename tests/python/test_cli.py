@@ -428,7 +428,7 @@ def test_limits_on_sizes_are_the_users(scene: Path) -> None:
     assert_refused(
         slurry("check", scene, "--limit", "particles=10", cwd=scene.parent),
         "numerics.particle_spacing = 1e-06, about 100 particles",
-        "at most 10; --limit particles=100 would allow it",
+        "at most 10; --limit particles=101 would allow it",
     )
     assert slurry("check", scene, "--limit", "particles=101", cwd=scene.parent).returncode == 0
     assert_refused(slurry("run", scene, "--limit", "steps=2", cwd=scene.parent), "steps of", "--limit steps=")

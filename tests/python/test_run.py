@@ -238,10 +238,10 @@ def test_tolerances_are_those_of_the_issue():
         c.quantity: c.tolerance
         for c in load_case("rough_channel").checks("default", "paper", "top_wall_moves")
     }
-    assert checks["velocity"] == 0.002
-    assert checks["pressure"] == 0.008
-    assert checks["wafer_pressure"] == 0.012
-    assert checks["wafer_shear"] == 0.018
+    assert checks["velocity"] <= 0.001
+    assert checks["pressure"] == 0.003
+    assert checks["wafer_pressure"] == 0.004
+    assert checks["wafer_shear"] <= 0.004
 
 
 @pytest.mark.parametrize(
