@@ -229,8 +229,8 @@ def observed_order(spacings: Sequence[float], errors: Sequence[float]) -> float 
 
 
 def require_reference_quality(error_estimate: float, kind: str = "exact", tolerance: float = 0.0) -> None:
-    """Refuses a reference that has not shown itself to be within 0.1 % or a tenth of the check's tolerance; or
-    within 2 % for a check `independent`.
+    """Refuses a reference that has not shown itself to be within 0.1 % or a tenth of the tolerance, or within
+    2 % for a check `independent`.
     """
     of_numbers = max(LARGEST_REFERENCE_ERROR, 0.1 * tolerance)
     limit = LARGEST_INDEPENDENT_ERROR if kind == "independent" else of_numbers

@@ -27,7 +27,7 @@ def verified(tmp_path_factory):
 def test_markdown_names_every_finest_check(verified):
     text = (verified / "report.md").read_text()
     assert "**FAILED" in text
-    assert text.count("| passed |") == 28
+    assert text.count("| passed |") == 26
     assert "above tolerance" in text
     for picture in re.findall(r"\]\((figures/\S+)\)", text):
         assert (verified / picture).stat().st_size > 5000

@@ -19,6 +19,16 @@ DISCS = (
     "disc_settling", "disc_still",
 )  # fmt: skip
 
+POLISHING = (
+    "abrasive_free",
+    "abrasives",
+    "gaussian_asperity",
+    "rough_pad",
+    "rough_pad_profile",
+    "wafer_feature",
+)
+SWEEPS = ("abrasives", "gaussian_asperity")  # of which the gate runs some points only
+
 
 @pytest.fixture
 def solver(monkeypatch):
@@ -219,13 +229,13 @@ def test_known_shortfalls_are_shown_but_do_not_decide(solver, tmp_path, monkeypa
 
 def test_every_case_is_complete():
     cases = [case for case in load_cases() if "include" not in case.data]  # the hard ones have their own test
-    assert [case.name for case in cases] == sorted([*FLOWS, *DISCS, "wafer_feature"])
+    assert [case.name for case in cases] == sorted([*FLOWS, *DISCS, *POLISHING])
     for case in cases:
         assert (case.scene_path.parent / "README.md").exists()
         assert case.schemes == (SCHEMES if case.name in FLOWS else ("default",))
         for level, variant in itertools.product(LEVELS, case.variants):
-            too_long = case.name == "disc_pair_ensemble" or variant.name == "full"
-            fewest = 0 if level == "gate" and too_long else 1
+            too_long = level == "gate" and (case.name == "disc_pair_ensemble" or variant.name == "full")
+            fewest = 0 if too_long or case.name in SWEEPS else 1
             assert len(case.spacings("default", level, variant.name)) >= (3 if case.name in FLOWS else fewest)
             assert case.checks("default", level, variant.name)
             for check in case.checks("default", level, variant.name):
