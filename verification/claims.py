@@ -228,13 +228,19 @@ def cube_root(evidence: Evidence) -> Finding:
 
 def saturates(evidence: Evidence) -> Finding:
     result = evidence.ensemble()
-    before, after = result["slope_before_per_percent"], result["slope_after_per_percent"]
-    rose = HOLDS if not within(0.0, before[1:]) else OPEN
+    slopes = [
+        [v for v in result[f"slope_{part}_per_percent"] if v is not None] for part in ("before", "after")
+    ]
+    texts = [f"{s[0]:.3f}" + (f" ({s[1]:.3f} to {s[2]:.3f})" if s[1:] else " (no interval)") for s in slopes]
+    before, after = slopes
+    verdict = OPEN  # also of single members, which have no interval
+    if before[1:] and after[1:]:
+        rose = HOLDS if not within(0.0, before[1:]) else OPEN
+        verdict = rose if within(0.0, after[1:]) else FAILS
     return Finding(
-        f"slope {before[0]:.3f} ({before[1]:.3f} to {before[2]:.3f}) per % up to 5 %, "
-        f"{after[0]:.3f} ({after[1]:.3f} to {after[2]:.3f}) from there on",
+        f"slope {texts[0]} per % up to 5 %, {texts[1]} from there on",
         "none",
-        rose if within(0.0, after[1:]) else FAILS,
+        verdict,
         "F_tau cannot exceed 1, so that any rise ends; the question is whether it ends near 5 %",
     )
 

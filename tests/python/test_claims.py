@@ -104,5 +104,10 @@ def test_saturation_needs_a_rise_before_it() -> None:
     assert claims.saturates(evidence(abrasives=rising)).verdict == FAILS
 
 
+def test_slopes_without_intervals_decide_nothing() -> None:
+    single = ensemble(slope_before_per_percent=[0.2], slope_after_per_percent=[0.1])
+    assert claims.saturates(evidence(abrasives=single)).verdict == OPEN
+
+
 def test_a_rise_that_chance_explains_is_open() -> None:
     assert claims.rises(evidence(abrasives=ensemble(rise={"kendall_tau": 0.1, "p": 0.2}))).verdict == OPEN
