@@ -174,7 +174,7 @@ def table(rows: Sequence[Mapping[str, Any]]) -> str:
     studies = dict.fromkeys(row["study"] for row in rows)
     groups = [(study, [row for row in rows if row["study"] == study]) for study in studies]
     lines = [
-        "| study (case, variant, finest spacing in m) | bands | covering | refused | median of band over error |",
+        "| study (case, variant, finest spacing in m) | bands | covering | refused | band / error, median |",
         "|---|---|---|---|---|",
     ]
     for name, mine in [*groups, ("all", rows)]:
