@@ -83,7 +83,8 @@ StoredTable Hdf5Reader::table(const std::string& path) const {
         throw ReadError(fmt::format("{}: {} is not a table of numbers", name_, path));
     }
     StoredTable table{sizes[0], sizes[1], std::vector<double>(sizes[0] * sizes[1])};
-    require(H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.values.data()), path);
+    require(H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.values.data()),
+            path);
     return table;
 }
 

@@ -37,7 +37,8 @@ class Hdf5Reader {
     [[nodiscard]] std::size_t size(const std::string& path) const;
     // All of them in a dataset [n] or [n, m].
     [[nodiscard]] StoredTable table(const std::string& path) const;
-    // Those of a checkpoint, where there have to be `size`: nothing in the file decides how much memory is taken.
+    // Those of a checkpoint, where there have to be `size`: nothing in the file decides how much memory is
+    // taken.
     [[nodiscard]] std::vector<double> numbers(const std::string& path, std::size_t size) const;
     [[nodiscard]] std::vector<int> integers(const std::string& path, std::size_t size) const;
 

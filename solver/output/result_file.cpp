@@ -193,7 +193,7 @@ void ResultFile::restore(const Hdf5Reader& checkpoint) {
 std::filesystem::path ResultFile::Implementation::finish_as(const std::string& stem) {
     writer.close();
     partial.synchronise();
-    const std::filesystem::path target = partial.target().parent_path() / (stem + ".h5");
+    std::filesystem::path target = partial.target().parent_path() / (stem + ".h5");
     std::filesystem::path xdmf = target;
     PartialFile description(xdmf.replace_extension(".xdmf"));
     description.write(xdmf_document(title, target.filename().string(), snapshots));

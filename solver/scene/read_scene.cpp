@@ -120,7 +120,7 @@ bool is_in(const std::filesystem::path& file, const std::filesystem::path& folde
 // by a link, because a scene may come from somebody else; an absolute path is one that its user can see.
 std::filesystem::path located(const std::filesystem::path& file, const Scene& scene,
                               const std::string& place) {
-    const std::filesystem::path normal = file.lexically_normal();
+    std::filesystem::path normal = file.lexically_normal();
     if (file.is_relative() && (normal.empty() || *normal.begin() == "..")) {
         refuse(place, fmt::format("the file \"{}\"", printable(file.string())),
                "a file in the scene's folder or below, or an absolute path");

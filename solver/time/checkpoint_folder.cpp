@@ -48,8 +48,8 @@ FoundCheckpoint find_checkpoint(const std::filesystem::path& folder) {
 }
 
 CheckpointFolder::CheckpointFolder(const std::filesystem::path& folder, double interval,
-                                   const std::filesystem::path& resumed_from, SecondsSource now)
-    : current_(current_in(folder)), previous_(previous_in(folder)), newest_(resumed_from),
+                                   std::filesystem::path resumed_from, SecondsSource now)
+    : current_(current_in(folder)), previous_(previous_in(folder)), newest_(std::move(resumed_from)),
       interval_(interval), now_(std::move(now)), last_(now_()) {}
 
 bool CheckpointFolder::due() {

@@ -20,8 +20,8 @@ class CheckpointFolder {
   public:
     // `interval`: wall time between checkpoints, s; 0: none is due by itself. `resumed_from`: the checkpoint
     // that the run goes on from, empty for a run from the start.
-    CheckpointFolder(const std::filesystem::path& folder, double interval,
-                     const std::filesystem::path& resumed_from, SecondsSource now = steady_seconds);
+    CheckpointFolder(const std::filesystem::path& folder, double interval, std::filesystem::path resumed_from,
+                     SecondsSource now = steady_seconds);
 
     // Whether the interval has passed since the last checkpoint, or the last call that said so.
     [[nodiscard]] bool due();

@@ -92,8 +92,7 @@ std::string difference(const RunIdentity& there, const RunIdentity& here) {
     if (there.version != here.version) {
         return fmt::format("slurry {}, here {}", there.version, here.version);
     }
-    if (const std::string found = scene_difference(values_of(there.scene), values_of(here.scene));
-        !found.empty()) {
+    if (std::string found = scene_difference(values_of(there.scene), values_of(here.scene)); !found.empty()) {
         return found;
     }
     if (there.arithmetic != here.arithmetic) {
