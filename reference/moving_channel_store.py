@@ -5,9 +5,6 @@ x, of a field at those in x and, fastest, eta, of all points. The nodes are the 
 4, of the header's mesh lines.
 """
 
-import hashlib
-import json
-import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from reference.base import Array, ReferenceError, canonical
+from reference.stored_rows import read_rows, write_rows
 
 HEAD = (
     "# Pressure in Pa over one period by reference/moving_channel.py; nothing published. SI units.",
@@ -43,35 +41,15 @@ def _rows(arrays: dict[str, Array]) -> Iterator[str]:
 
 def write_stored(file: Path, problem: dict[str, object], arrays: dict[str, Array]) -> None:
     """Raises ReferenceError where the file cannot be written."""
-    body = "".join(_rows(arrays))
-    header = {
-        "problem": problem,
-        "run": {key: arrays[key].tolist() for key in RUN},
-        "sha256": hashlib.sha256(body.encode()).hexdigest(),
-    }
-    head = [*HEAD, *(f"# {key}: {json.dumps(value)}" for key, value in header.items()), COLUMNS]
-    part = file.with_name(f"{file.name}.{os.getpid()}.part")
-    try:
-        try:
-            part.write_text("\n".join(head) + "\n" + body, encoding="utf-8")
-            part.replace(file)
-        finally:
-            part.unlink(missing_ok=True)
-    except OSError as error:
-        raise ReferenceError(f"{file}: the reference cannot be stored: {error}") from error
+    header = {"problem": problem, "run": {key: arrays[key].tolist() for key in RUN}}
+    write_rows(file, HEAD, COLUMNS, header, "".join(_rows(arrays)))
 
 
 def read_stored(file: Path) -> Stored:
     """Raises ReferenceError for a file that was changed."""
     try:
-        text = file.read_text(encoding="utf-8")
-        head, body = text.split(f"{COLUMNS}\n")
-        lines = [line.removeprefix("# ").split(": ", 1) for line in head.splitlines()[len(HEAD) :]]
-        header = {key: json.loads(value) for key, value in lines}
-        if header["sha256"] != hashlib.sha256(body.encode()).hexdigest():
-            raise ValueError("its rows do not have the checksum of its header")
+        header, rows, digest = read_rows(file, HEAD, COLUMNS)
         arrays = {key: np.array(header["run"][key], dtype=float) for key in RUN}
-        rows = [line.split(",") for line in body.splitlines()]
         tables = {what: [row[2:] for row in rows if row[0] == what] for what in ("wall", "field", "point")}
         arrays["wall"] = np.array(tables["wall"], dtype=float)
         arrays["fields"] = np.array(tables["field"], dtype=float).reshape(
@@ -84,4 +62,4 @@ def read_stored(file: Path) -> Stored:
             raise ValueError("it has values that are not finite")
     except (KeyError, OSError, ValueError) as error:
         raise ReferenceError(f"{file}: not a stored pressure ({error}); make it again") from error
-    return Stored(canonical(header["problem"]), arrays, hashlib.sha256(text.encode()).hexdigest())
+    return Stored(canonical(header["problem"]), arrays, digest)
