@@ -160,6 +160,7 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
                 store_lanes(dummies.velocity_y, first, result.velocity_y, units_.velocity);
                 store_lanes(dummies.pressure, first, result.pressure, units_.pressure());
                 store_lanes(dummies.normal_velocity, first, result.normal_velocity, units_.velocity);
+                store_lanes(dummies.fluid_share, first, result.fluid_share, 1);
             });
     }
 

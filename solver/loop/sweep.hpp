@@ -29,7 +29,9 @@ template <class... Terms> struct Composition {
     }
 };
 
-// One block of W targets. Flattened: a call inside the loop would send its vectors through memory.
+// One block of W targets. Flattened: a call inside the loop would send its vectors through memory. Rows are
+// gathered one pair ahead, and two pairs make a round: else the processor waits for one pair's chain of
+// operations before it has seen enough of the next, or spends its instructions on copies between registers.
 template <class Real, int W, class Kernel, template <class> class View, template <class> class Result,
           class Coefficients, class... Terms>
 [[gnu::flatten]] Result<Pack<Real, W>> sweep_block(Composition<Terms...> /*which*/, const NeighbourList& list,
@@ -38,12 +40,27 @@ template <class Real, int W, class Kernel, template <class> class View, template
     using P = Pack<Real, W>;
     const View<P> i{gather<Real, W>(rows, list.targets(block))};
     AllSums<P, Terms...> sums{};
-    const std::uint32_t* neighbours = list.neighbours(block);
-    const std::uint32_t* const end = neighbours + list.count(block) * static_cast<std::size_t>(W);
-    for (; neighbours != end; neighbours += W) {
-        const View<P> j{gather<Real, W>(rows, neighbours)};
+    const auto add = [&](const View<P>& j) {
         const Pair<P> pair = make_pair<Kernel>(P(i.x() - j.x()), P(i.y() - j.y()));
         Composition<Terms...>::add(sums, pair, i, j);
+    };
+    const std::uint32_t* neighbours = list.neighbours(block);
+    std::size_t left = list.count(block);
+    if (left > 0) {
+        View<P> first{gather<Real, W>(rows, neighbours)};
+        for (; left > 2; left -= 2) {
+            const View<P> second{gather<Real, W>(rows, neighbours += W)};
+            add(first);
+            first = {gather<Real, W>(rows, neighbours += W)};
+            add(second);
+        }
+        if (left == 2) {
+            const View<P> second{gather<Real, W>(rows, neighbours + W)};
+            add(first);
+            add(second);
+        } else {
+            add(first);
+        }
     }
     Result<P> result{};
     Composition<Terms...>::finish(sums, i, coefficients, result);

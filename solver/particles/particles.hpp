@@ -44,6 +44,7 @@ struct DummyParticles {
     std::vector<double> velocity_x, velocity_y; // extrapolated, Eq. 2.16
     std::vector<double> pressure;               // extrapolated, Eq. 2.17
     std::vector<double> normal_velocity;        // m/s, against the solid: see WallContinuity::solenoidal
+    std::vector<double> fluid_share; // of the room within reach in front of a flat wall, what fluid fills
     std::vector<double> solid_velocity_x, solid_velocity_y; // of the wall or disc, there (Eq. 2.26)
     std::vector<double> normal_x, normal_y; // of the surface at the nearest point, unit, into the fluid
     std::vector<double> start_normal_x, start_normal_y; // of a disc's, at angle 0
@@ -70,9 +71,9 @@ struct DummyParticles {
   private:
     template <class Self, class Visit> static void each_array_of(Self& self, Visit&& visit) {
         for (auto* array : {&self.x, &self.y, &self.start_x, &self.start_y, &self.volume, &self.velocity_x,
-                            &self.velocity_y, &self.pressure, &self.normal_velocity, &self.solid_velocity_x,
-                            &self.solid_velocity_y, &self.normal_x, &self.normal_y, &self.start_normal_x,
-                            &self.start_normal_y, &self.depth, &self.curvature}) {
+                            &self.velocity_y, &self.pressure, &self.normal_velocity, &self.fluid_share,
+                            &self.solid_velocity_x, &self.solid_velocity_y, &self.normal_x, &self.normal_y,
+                            &self.start_normal_x, &self.start_normal_y, &self.depth, &self.curvature}) {
             visit(*array);
         }
         visit(self.wall);

@@ -1,6 +1,6 @@
 #pragma once
-// Pressure force with the plain mean (p_i + p_j) / 2 in place of the density-weighted one of Eq. 2.15: what
-// the weights buy in one fluid, whose density hardly varies, is for the ablation table to say.
+// Pressure force with the plain mean (p_i + p_j) / 2: the density-weighted one of Eq. 2.15 where all
+// particles count with the same density, as with volumes that do not change, and one division a pair less.
 #include "solver/terms/pressure_force.hpp"
 
 namespace slurry {

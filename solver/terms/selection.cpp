@@ -15,7 +15,9 @@ TermSelection select_terms(const Scene& scene) {
     if (numerics.compressibility == Compressibility::steady_frame) {
         terms.pressure_frame = steady_frame(scene);
     }
-    terms.density_weighted_pressure = numerics.pressure_mean == PressureMean::density_weighted;
+    // Volumes that stay the same are those of one density, whose weights are equal.
+    terms.density_weighted_pressure = numerics.pressure_mean == PressureMean::density_weighted &&
+                                      numerics.particle_volume != ParticleVolume::constant;
     terms.viscosity = scene.fluid.dynamic_viscosity > 0;
     terms.transport_velocity = numerics.background_pressure_ratio > 0;
     terms.advection_tensor = terms.transport_velocity && numerics.advection_tensor;
@@ -45,7 +47,8 @@ std::vector<TermReason> explain_terms(const Scene& scene) {
         {"pressure force (2.15)", true, "always"},
         {"density weights of the mean pressure (2.15)", terms.density_weighted_pressure,
          terms.density_weighted_pressure ? "numerics.pressure_mean = density_weighted"
-                                         : "numerics.pressure_mean = plain"},
+         : numerics.pressure_mean == PressureMean::density_weighted ? "numerics.particle_volume = constant"
+                                                                    : "numerics.pressure_mean = plain"},
         {"viscous force (2.15)", terms.viscosity,
          fmt::format("fluid.dynamic_viscosity = {} Pa s", scene.fluid.dynamic_viscosity)},
         {"transport velocity (2.18, 2.19)", terms.transport_velocity,

@@ -112,8 +112,8 @@ template <class P> struct MeanView {
 template <class P> struct Extrapolation {
     P velocity_x, velocity_y; // Shepard mean of the fluid's velocity
     P pressure;
-    P kernel_sum;      // 0: no fluid within reach, and the means are 0
     P normal_velocity; // across the wall, that which the change of the tangential velocity along it asks for
+    P fluid_share;     // of the room within reach in front of a flat wall, what fluid fills
 };
 template <class Real> struct ExtrapolationCoefficients { Real mass; };
 

@@ -20,7 +20,6 @@ struct VelocityExtrapolation {
                        const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
         const P zero{};
         const P inverse = sums.kernel > zero ? 1 / sums.kernel : zero;
-        result.kernel_sum = sums.kernel;
         result.velocity_x = sums.velocity_x * inverse;
         result.velocity_y = sums.velocity_y * inverse;
     }

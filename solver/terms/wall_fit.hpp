@@ -13,11 +13,14 @@
 #include "solver/terms/normal_equations.hpp"
 #include "solver/terms/views.hpp"
 
+#include <numbers>
 #include <type_traits>
 
 namespace slurry {
 
 inline constexpr double wall_fit_support = 3; // in smoothing lengths
+// Integral of the weights over the half-plane in front of a flat wall: pi (3h)^2 / 6.
+inline constexpr double half_plane_weight = std::numbers::pi * wall_fit_support * wall_fit_support / 6;
 
 template <class View, class P> inline constexpr bool spinning = std::is_same_v<View, SpinningWallView<P>>;
 
@@ -89,9 +92,10 @@ struct PressureFit {
     }
     template <class P, class View, class Real>
     static void finish(const Sums<P>& sums, const View& dummy,
-                       const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
+                       const ExtrapolationCoefficients<Real>& coefficients, Extrapolation<P>& result) {
         const auto c = FactoredEquations<P, 3>(sums.equations).solve(sums.right);
         result.pressure = c[0] - dummy.depth() * c[1];
+        result.fluid_share = coefficients.mass * sums.equations.products[0] * Real(1 / half_plane_weight);
     }
 };
 

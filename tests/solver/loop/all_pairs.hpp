@@ -2,9 +2,11 @@
 // Eqs. 2.14 to 2.22 as they are written, and the wall fits as least squares, particle by particle over all
 // particles and all their periodic images: no neighbour lists, no fused sums, no vectors. What the pair loops
 // are held against.
+#include "solver/loop/pass_rows.hpp"
 #include "solver/particles/particles.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/terms/selection.hpp"
+#include "solver/terms/wall_fit.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -103,6 +105,12 @@ class AllPairs {
             dummies_.velocity_x[d] = continued.x();
             dummies_.velocity_y[d] = continued.y();
             dummies_.pressure[d] = c(0, 0) + n * c(1, 0);
+            double weights = 0;
+            for (const auto& near : fluid) {
+                weights += near.weight;
+            }
+            dummies_.fluid_share[d] = weights * fluid_.mass / (scene_.fluid.density * h_ * h_) /
+                                      (std::numbers::pi * wall_fit_support * wall_fit_support / 6);
         }
     }
 
@@ -147,8 +155,8 @@ class AllPairs {
                 const double squares = std::pow(volume(i), 2) + std::pow(volume(j), 2);
                 const double slope = kernel_slope(r.norm());
                 const Vector gradient = slope * r.normalized();
-                const double rho_i = fluid_.mass / volume(i);
-                const double rho_j = fluid_.mass / volume(j);
+                const double rho_i = weighting_density(i);
+                const double rho_j = weighting_density(j);
                 const double mean_pressure = (pressure(i) * rho_j + pressure(j) * rho_i) / (rho_i + rho_j);
                 force -= squares * mean_pressure * gradient;
                 force += squares * scene_.fluid.dynamic_viscosity * (velocity_of(i) - velocity_of(j)) /
@@ -302,7 +310,9 @@ class AllPairs {
         const Vector slip = relative - relative.dot(normal) * normal;
         const double reynolds =
             slip.norm() * dummies_.depth[d] / std::max(scene_.fluid.kinematic_viscosity(), 1e-300);
-        return wall_velocity(d) + (slip + dummies_.normal_velocity[d] * normal) / (1 + reynolds * reynolds);
+        return wall_velocity(d) + known_share(dummies_.fluid_share[d]) *
+                                      (slip + dummies_.normal_velocity[d] * normal) /
+                                      (1 + reynolds * reynolds);
     }
     // Of a disc that nothing but its spin accelerates.
     [[nodiscard]] Vector spin_acceleration(std::size_t d) const {
@@ -324,6 +334,10 @@ class AllPairs {
         const double across = n + dummies_.curvature[d] * h_ * s * s / 2;
         const Vector arm = disc.radius * normal + h_ * (across * normal + s * along);
         return disc.velocity + disc.spin * left_of(arm);
+    }
+    [[nodiscard]] double weighting_density(std::size_t j) const {
+        return scene_.numerics.particle_volume == ParticleVolume::constant ? scene_.fluid.density
+                                                                           : fluid_.mass / volume(j);
     }
     [[nodiscard]] double volume(std::size_t j) const {
         return is_fluid(j) ? fluid_.volume[j] : dummies_.volume[j - fluid_.size()];

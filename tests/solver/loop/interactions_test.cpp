@@ -73,6 +73,7 @@ void expect_same_results(const Particles& particles, const Particles& expected, 
     expect_close(particles.dummies.velocity_x, expected.dummies.velocity_x, tolerance, "dummy velocity x");
     expect_close(particles.dummies.velocity_y, expected.dummies.velocity_y, tolerance, "dummy velocity y");
     expect_close(particles.dummies.pressure, expected.dummies.pressure, tolerance, "dummy pressure");
+    expect_close(particles.dummies.fluid_share, expected.dummies.fluid_share, tolerance, "fluid share");
 }
 
 Particles evaluated(const Scene& scene, LoopWidth width) {

@@ -114,6 +114,42 @@ void fit_to_walls(const Scene& scene, Particles& particles) {
     interactions->extrapolate_to_walls(particles);
 }
 
+TEST(WallFit, KnowsFilmsFromFluidThatFillsTheRoomBeforeAWall) {
+    const Scene scene = flat_channel(12, 0.7);
+    Particles full = arrange(scene);
+    fit_to_walls(scene, full);
+    for (const double share : full.dummies.fluid_share) {
+        EXPECT_NEAR(share, 1, 0.05);
+    }
+    Particles film = single_row(scene);
+    fit_to_walls(scene, film);
+    for (const double share : film.dummies.fluid_share) {
+        EXPECT_LT(share, 0.7);
+    }
+}
+
+std::vector<double> density_rate(const Scene& scene, Particles particles) {
+    const auto interactions = make_interactions(scene);
+    interactions->refresh_neighbours(particles);
+    interactions->extrapolate_to_walls(particles);
+    interactions->compute_density_rate(particles);
+    return particles.fluid.density_rate;
+}
+
+// In a film the continued velocity is flow through the wall.
+TEST(WallFit, KeepsToTheWallsOwnVelocityInAFilm) {
+    Scene fitted = flat_channel(12, 0.7);
+    fitted.numerics.wall_continuity = WallContinuity::solenoidal;
+    Scene own = fitted;
+    own.numerics.wall_continuity = WallContinuity::wall_velocity;
+    Particles film = single_row(fitted);
+    disorder(film, fitted);
+    EXPECT_EQ(density_rate(fitted, film), density_rate(own, film));
+    Particles full = arrange(fitted);
+    disorder(full, fitted);
+    EXPECT_NE(density_rate(fitted, full), density_rate(own, full));
+}
+
 TEST(WallFit, FallsBackToAStraightLineBesideASingleRow) {
     Scene scene = flat_channel(12, 0.7);
     scene.walls[0].velocity = {-0.3, 0};
