@@ -131,7 +131,7 @@ def snapshots(data: Data) -> Figure:
     for axis, time in zip(axes, times, strict=True):
         dots = draw(axis, result, time)
         axis.set_title(f"t = {time:.3g} s")
-    axes[0].set_ylabel("y (m)")
+        axis.label_outer()
     figure.colorbar(dots, ax=list(axes), label="vorticity (1/s)", shrink=0.7)
     return figure
 

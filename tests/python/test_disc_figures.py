@@ -118,9 +118,9 @@ def run(tmp_path):
 def test_a_movie_has_a_frame_for_each_snapshot(run, capsys, monkeypatch):
     monkeypatch.setattr(movie.animation.FFMpegWriter, "isAvailable", lambda: False)
     assert movie.main([str(run)]) == 0
-    assert capsys.readouterr().out == f"{run / 'movie.gif'}: 3 frames\n"
-    assert (run / "movie.gif").read_bytes()[:4] == b"GIF8"
-    assert sorted(path.name for path in run.iterdir()) == ["movie.gif", "result.h5"]
+    assert capsys.readouterr().out == f"{run / 'vorticity.gif'}: 3 frames\n"
+    assert (run / "vorticity.gif").read_bytes()[:4] == b"GIF8"
+    assert sorted(path.name for path in run.iterdir()) == ["result.h5", "vorticity.gif"]
     assert movie.main([str(run), "--out", str(run / "movie.mp4")]) == 2
     assert "where ffmpeg is installed" in capsys.readouterr().err
 
