@@ -19,6 +19,7 @@ from verification.compare import Array, DataError, require_series
 # A sample stands for a wanted time when it is within this share of the end time. The reference is taken at
 # the sample's own time: this only tells a run that ended early from one whose step does not divide the time.
 TIME_MATCH = 1e-3
+COLUMNS = ("position_x", "position_y", "velocity_x", "velocity_y", "pressure")  # of a snapshot that are read
 
 
 @dataclass(frozen=True)
@@ -86,8 +87,9 @@ class Result:
         expected = int(self.attributes().get("fluid_particles", -1))
         if len(particles.position) != expected:
             raise DataError(f"snapshot {index} holds {len(particles.position)} of {expected} fluid particles")
-        for name in ("position", "velocity", "pressure"):
-            require_series(f"{name} of the particles", getattr(particles, name))
+        columns = np.column_stack([particles.position, particles.velocity, particles.pressure]).T
+        for name, values in zip(COLUMNS, columns, strict=True):
+            require_series(f"{name} of the particles", values)
         return particles
 
     def snapshot(self, time: float) -> tuple[Particles, Array]:
@@ -103,10 +105,9 @@ class Result:
             snapshots = _group(file, "snapshots")
             snapshot = snapshots[list(snapshots)[index]]
             owner = _dataset(snapshot, "wall")
-            names = ("position_x", "position_y", "velocity_x", "velocity_y", "pressure")
-            columns = [_dataset(snapshot, name) for name in names]
+            columns = [_dataset(snapshot, name) for name in COLUMNS]
         if any(column.shape != owner.shape for column in columns):
-            raise DataError(f"snapshot {index} has not one {', '.join(names)} for each particle")
+            raise DataError(f"snapshot {index} has not one {', '.join(COLUMNS)} for each particle")
         fluid, wall = owner < 0, (owner >= 0) & (owner < len(self.scene.get("walls", [])))  # then come discs
         values = np.array(columns, dtype=float).T
         particles = Particles(float(time), values[fluid, :2], values[fluid, 2:4], values[fluid, 4])
