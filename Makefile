@@ -32,11 +32,11 @@ figures: build ## Sweeps, ensembles and their figures (build/figures), on all co
 	    --config level=$(LEVEL)
 
 plot: setup ## Pictures of a run into RUN/plots: make plot RUN=FOLDER, the folder that `slurry run` wrote
-	@$(PYTHON) -m verification.plot $(RUN)
+	@$(PYTHON) -m verification.plot $(if $(RUN),"$(RUN)")
 
 FIELD ?= vorticity
 movie: setup ## A movie of a run with snapshots: make movie RUN=FOLDER FIELD=vorticity, pressure or speed
-	@$(PYTHON) -m verification.movie $(RUN) --field $(FIELD)
+	@$(PYTHON) -m verification.movie $(if $(RUN),"$(RUN)") --field $(FIELD)
 
 test-slurm: build ## A small ensemble through a Slurm cluster of this machine alone; skipped where that cannot run
 	@scripts/test_slurm

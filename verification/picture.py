@@ -27,9 +27,15 @@ def speed(particles: Particles) -> Array:
     return np.linalg.norm(particles.velocity, axis=1)
 
 
+def less_mean(values: Array) -> Array:
+    """Values less the mean of those along the last axis that are finite."""
+    mean = np.ma.masked_invalid(values).mean(axis=-1, keepdims=True)
+    return values - np.ma.filled(mean, np.nan)
+
+
 def pressure(particles: Particles) -> Array:
     """Pressure (n,) less its mean, Pa: the gauge of an incompressible pressure is free."""
-    return particles.pressure - np.nanmean(particles.pressure)
+    return less_mean(particles.pressure)
 
 
 def vorticity(particles: Particles) -> Array:

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from verification.compare import Array, DataError
 from verification.measure import Result
-from verification.picture import FIELDS, MISSING, SHOWN, bounds, draw, periodic, scenery
+from verification.picture import FIELDS, MISSING, SHOWN, bounds, draw, less_mean, periodic, scenery
 from verification.units import label, text
 
 Figures = dict[str, Figure]
@@ -85,15 +85,14 @@ def _last(result: Result, probe: dict, columns: dict[str, Array]) -> Figure:
     order = np.argsort(place)
     figure = Figure(figsize=(8, 6), layout="constrained")
     panels = figure.subplots(2, 1, sharex=True)
-    mean = np.nanmean(columns["pressure"][-1])
     for axes, values, of in (
-        (panels[0], columns["pressure"][-1] - mean, "pressure - mean"),
+        (panels[0], less_mean(columns["pressure"][-1]), "pressure - mean"),
         (panels[1], columns["shear"][-1], "shear"),
     ):
         _line(axes, place[order], values[order], of, ".-")
         label(axes.yaxis, of, "Pa")
     label(panels[1].xaxis, name, "m")
-    figure.suptitle(f"Wall {probe['wall']} at t = {text(time, 's')}; mean pressure {text(mean, 'Pa')}")
+    figure.suptitle(f"Wall {probe['wall']} at t = {text(time, 's')}")
     return figure
 
 
@@ -106,12 +105,14 @@ def _map(result: Result, probe: dict, columns: dict[str, Array]) -> Figure:
     moves = any(_wall(result, probe)["velocity"])
     figure = Figure(figsize=(11, 5), layout="constrained")
     panels = figure.subplots(1, 2, sharey=True)
-    change = columns["pressure"] - np.nanmean(columns["pressure"], axis=1, keepdims=True)
+    change = less_mean(columns["pressure"])
     for axes, values, of, colours in (
         (panels[0], change, "pressure - mean", "RdBu_r"),
         (panels[1], columns["shear"], "shear", "viridis"),
     ):
-        least, most = np.nanquantile(values[len(values) // 2 :], (1 - SHOWN, SHOWN))
+        later = values[len(values) // 2 :]
+        later = later[np.isfinite(later)]
+        least, most = np.quantile(later, (1 - SHOWN, SHOWN)) if later.size else (0.0, 1.0)
         if values is change:
             least, most = -max(-least, most), max(-least, most)
         style = {"cmap": colours, "vmin": least, "vmax": most, "shading": "nearest", "rasterized": True}

@@ -167,10 +167,13 @@ def test_gaps_in_series_and_walls_are_counted(run):
     assert legends(walls["wall_wafer_over_time"]) == ["not finite: 40 of 4040"]
 
 
-def test_a_snapshot_without_any_finite_value_is_skipped(run, capsys):
-    change(run, "snapshots/0000/velocity_x", slice(None), np.nan)
+def test_what_is_never_finite_is_said_to_be_so(run, capsys):
+    for path in ("snapshots/0000/velocity_x", "probes/wafer/pressure", "series/kinetic_energy"):
+        change(run, path, slice(None), np.nan)
     assert plot.main([str(run)]) == 0
     assert "fields: skipped: no particle has a speed" in capsys.readouterr().out
+    figure = FIGURES["walls"](open_run(run))["wall_wafer"]
+    assert legends(figure) == ["pressure - mean (not finite: 40 of 40)"]
 
 
 def test_a_wall_is_drawn_where_it_stands(run):
