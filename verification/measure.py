@@ -42,6 +42,18 @@ class WallSample:
     shear: Array
 
 
+class Columns(dict[str, Array]):
+    """The datasets of a group by name, and their units; one that is not there raises DataError."""
+
+    def __init__(self, group: str) -> None:
+        super().__init__()
+        self.group = group
+        self.units: dict[str, str] = {}
+
+    def __missing__(self, name: str) -> Array:
+        raise DataError(f"the result has no {self.group}/{name}")
+
+
 class Result:
     """Reads one result.h5 and refuses a run that did not reach `end_time`. That and `scene` are the case's,
     not the file's: what the solver was told beside the case must not go unnoticed.
@@ -117,14 +129,14 @@ class Result:
         with self._open() as file:
             return isinstance(file.get(group), h5py.Group)
 
-    def group(self, name: str) -> dict[str, tuple[Array, str]]:
-        """Every dataset of a group with its unit, as it stands: with NaN, where a probe found nothing."""
+    def columns(self, group: str) -> Columns:
+        """Every dataset of a group as it stands: with NaN, where a probe found nothing."""
+        found = Columns(group)
         with self._open() as file:
-            found = {key: item for key, item in _group(file, name).items() if isinstance(item, h5py.Dataset)}
-            return {
-                key: (np.atleast_1d(item[()]).astype(float), str(item.attrs.get("unit", "1")))
-                for key, item in found.items()
-            }
+            for name, dataset in _group(file, group).items():
+                found[name] = np.atleast_1d(dataset[()]).astype(float)
+                found.units[name] = str(dataset.attrs.get("unit", "1"))
+        return found
 
     def wall(self, probe: str) -> WallSample:
         """The probe's last sample."""

@@ -31,7 +31,7 @@ def save(result: Result, out: Path) -> tuple[list[Path], list[str]]:
                     path, part = out / f"{name}.png", out / f"part.{name}.png"
                     figure.savefig(part)
                     written.append(part.replace(path))
-        except DataError as error:
+        except (DataError, ValueError) as error:  # ValueError: columns that do not fit each other
             skipped.append(f"{kind}: skipped: {error}")
     return written, skipped
 

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from verification.compare import Array, DataError
-from verification.measure import Result
+from verification.measure import Columns, Result
 from verification.picture import FIELDS, MISSING, SHOWN, bounds, draw, less_mean, periodic, scenery
 from verification.units import label, text
 
@@ -27,19 +27,16 @@ def fields(result: Result) -> Figures:
     """Speed, pressure and vorticity of the last snapshot, with walls and discs."""
     time = result.snapshot_times()[-1]
     width, height = np.subtract(*bounds(result)[::-1])
-    wide = width > height
-    shape = (len(FIELDS), 1) if wide else (1, len(FIELDS))
-    size = (
-        (9, 1 + len(FIELDS) * (0.6 + 7 * height / width)) if wide else (1 + 3 * (1.5 + 4 * width / height), 5)
-    )
+    if width > height:
+        shape, size = (len(FIELDS), 1), (9, 1 + len(FIELDS) * (0.8 + 7 * height / width))
+    else:
+        shape, size = (1, len(FIELDS)), (1 + len(FIELDS) * (1.3 + 4.5 * width / height), 6)
     figure = Figure(figsize=size, layout="compressed")
-    for axes, name in zip(figure.subplots(*shape).flat, FIELDS, strict=True):
-        field = FIELDS[name]
-        bar = figure.colorbar(
-            draw(axes, result, time, name), ax=axes, extend="max" if not field.signed else "both"
-        )
-        label(bar.ax.yaxis, field.name, field.unit)
-    figure.get_layout_engine().set(wspace=0.06)
+    for axes, (name, field) in zip(figure.subplots(*shape).flat, FIELDS.items(), strict=True):
+        dots = draw(axes, result, time, name)
+        bar = figure.colorbar(dots, ax=axes, extend="both" if field.signed else "max")
+        label(bar.ax.yaxis, "", field.unit)
+        axes.set_title(field.name)
     figure.suptitle(f"t = {text(time, 's')}")
     return {"fields": figure}
 
@@ -48,11 +45,9 @@ def walls(result: Result) -> Figures:
     """Pressure and shear along every wall with a probe: at the last time, and over time."""
     found: Figures = {}
     for probe in _probes(result, "wall"):
-        columns = {key: values for key, (values, _) in result.group(f"probes/{probe['name']}").items()}
-        if missing := {"time", "x", "arc_length", "pressure", "shear"} - columns.keys():
-            raise DataError(f"probe {probe['name']} has no {', '.join(sorted(missing))}")
+        columns = result.columns(f"probes/{probe['name']}")
         found[f"wall_{probe['name']}"] = _last(result, probe, columns)
-        if len(columns["time"]) >= LEAST_TIMES:
+        if len(columns["time"]) >= LEAST_TIMES and len(columns["x"]) > 1:
             found[f"wall_{probe['name']}_over_time"] = _map(result, probe, columns)
     return found
 
@@ -68,14 +63,14 @@ def _wall(result: Result, probe: dict) -> dict:
     return next(wall for wall in result.scene["walls"] if wall["name"] == probe["wall"])
 
 
-def _along(columns: dict[str, Array]) -> tuple[Array, str]:
+def _along(columns: Columns) -> tuple[Array, str]:
     """What counts the probe's points: x where the wall is a graph over x, else the length along it."""
     if np.all(np.diff(columns["x"]) > 0):
         return columns["x"], "x"
     return columns["arc_length"], "length along the wall"
 
 
-def _last(result: Result, probe: dict, columns: dict[str, Array]) -> Figure:
+def _last(result: Result, probe: dict, columns: Columns) -> Figure:
     place, name = _along(columns)
     time = columns["time"][-1]
     if name == "x":  # where the wall stands now, in the order of space
@@ -96,7 +91,7 @@ def _last(result: Result, probe: dict, columns: dict[str, Array]) -> Figure:
     return figure
 
 
-def _map(result: Result, probe: dict, columns: dict[str, Array]) -> Figure:
+def _map(result: Result, probe: dict, columns: Columns) -> Figure:
     """Pressure and shear over the place on the wall and time: the wall's own frame, where its points stay.
 
     The colours suit the last half of the times; a start may be beyond them.
@@ -123,9 +118,9 @@ def _map(result: Result, probe: dict, columns: dict[str, Array]) -> Figure:
             axes.plot([], [], "s", color=MISSING, label=f"not finite: {count} of {values.size}")
             axes.legend(loc="upper right")
         label(axes.xaxis, f"{name} at t = 0, in the frame of the wall" if moves else name, "m")
-        label(figure.colorbar(image, ax=axes, extend="both").ax.yaxis, of, "Pa")
+        label(figure.colorbar(image, ax=axes, extend="both").ax.yaxis, "", "Pa")
+        axes.set_title(of)
     label(panels[0].yaxis, "time", "s")
-    figure.get_layout_engine().set(wspace=0.06)
     figure.suptitle(f"Wall {probe['wall']}")
     return figure
 
@@ -135,7 +130,8 @@ def _line(axes: Axes, x: Array, y: Array, name: str, style: str = "-", **more: o
     gaps = np.count_nonzero(~np.isfinite(y))
     name = f"{name} (not finite: {gaps} of {y.size})" if gaps else name
     axes.plot(x, y, style, label=name, **more)
-    axes.set_xlim(x[0], x[-1])
+    if x[0] < x[-1]:
+        axes.set_xlim(x[0], x[-1])
     if gaps:
         axes.legend(fontsize=8)
 
@@ -144,7 +140,7 @@ def discs(result: Result) -> Figures:
     """The ways of the discs through the domain, and their speed over time."""
     if not result.holds("discs"):
         raise DataError("the run has no discs")
-    columns = {key: values for key, (values, _) in result.group("discs").items()}
+    columns = result.columns("discs")
     width, height = np.subtract(*bounds(result)[::-1])
     tall = min(7.0, 7 * height / width)
     figure = Figure(figsize=(8, tall + 3.5), layout="constrained")
@@ -189,10 +185,10 @@ def points(result: Result) -> Figures:
     figure = Figure(figsize=(8, 7), layout="constrained")
     panels = figure.subplots(3, 1, sharex=True)
     for probe in probes:
-        columns = result.group(f"probes/{probe['name']}")
+        columns = result.columns(f"probes/{probe['name']}")
         for axes, name in zip(panels, ("pressure", "velocity_x", "velocity_y"), strict=True):
-            _line(axes, columns["time"][0], columns[name][0], probe["name"])
-            label(axes.yaxis, name.replace("_", " along "), columns[name][1])
+            _line(axes, columns["time"], columns[name], probe["name"])
+            label(axes.yaxis, name.replace("_", " along "), columns.units[name])
     panels[0].legend(fontsize=8)
     label(panels[-1].xaxis, "time", "s")
     return {"points": figure}
@@ -200,22 +196,23 @@ def points(result: Result) -> Figures:
 
 def totals(result: Result) -> Figures:
     """Every series over time, each in a panel; the kinetic energy with that of the discs."""
-    series = result.group("series")
-    times = series.pop("time")[0]
+    columns = result.columns("series")
+    times = columns["time"]
+    series = [name for name in columns if name != "time"]
     rows = -(-len(series) // 2)
     figure = Figure(figsize=(10, 2.9 * rows), layout="constrained")
     panels = figure.subplots(rows, 2, squeeze=False, sharex=True)
     for axes in panels.flat[len(series) :]:
         axes.set_axis_off()
-    for axes, (name, (values, unit)) in zip(panels.flat, series.items(), strict=False):
-        _line(axes, times, values, "fluid")
+    for axes, name in zip(panels.flat, series, strict=False):
+        _line(axes, times, columns[name], "fluid")
         if name == "kinetic_energy" and result.holds("discs"):
             _line(axes, times, _disc_energy(result), "discs")
             axes.legend(fontsize=8)
         low, high = axes.dataLim.intervaly
         if np.isfinite(high) and high - low < FLAT * abs(high):  # else its rounding would fill the panel
             axes.set_ylim(*sorted((0.99 * low, 1.01 * high)))
-        label(axes.yaxis, name.replace("_", " "), unit)
+        label(axes.yaxis, name.replace("_", " "), columns.units[name])
         label(axes.xaxis, "time", "s")
         axes.xaxis.set_tick_params(labelbottom=True)
     return {"totals": figure}
@@ -223,7 +220,7 @@ def totals(result: Result) -> Figures:
 
 def _disc_energy(result: Result) -> Array:
     """Kinetic energy (n,) of all discs over time, J/m."""
-    columns = {key: values for key, (values, _) in result.group("discs").items()}
+    columns = result.columns("discs")
     square = columns["velocity_x"] ** 2 + columns["velocity_y"] ** 2
     turning = columns["moment_of_inertia"] * columns["spin"] ** 2
     return (columns["mass"] * square + turning).sum(axis=1) / 2

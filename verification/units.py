@@ -32,8 +32,11 @@ def text(value: float, unit: str) -> str:
 
 
 def label(axis: Axis, name: str, unit: str) -> None:
-    """Names an axis whose data is in `unit`, and gives its ticks in what its limits are best read in."""
+    """Names an axis whose data is in `unit`, and gives its ticks in what its limits are best read in.
+
+    Without a name the axis has its unit alone.
+    """
     factor, shown = readable(unit, float(np.abs(axis.get_view_interval()).max()))
     shorten = FuncFormatter(lambda value, _: f"{value / factor:.10g}".replace("-", "\N{MINUS SIGN}"))
     axis.set_major_formatter(shorten)
-    axis.set_label_text(f"{name} ({shown})")
+    axis.set_label_text(f"{name} ({shown})" if name else shown)

@@ -76,6 +76,10 @@ def change(run, path, index, value):
         file[path][...] = values
 
 
+def only(monkeypatch, kind):
+    monkeypatch.setattr(plot, "FIGURES", {kind: FIGURES[kind]})
+
+
 NAMES = ["fields", "wall_wafer", "wall_wafer_over_time", "discs", "points", "totals"]
 
 
@@ -98,6 +102,30 @@ def test_what_a_run_does_not_hold_is_skipped_with_a_reason(run, capsys):
     ]
     assert len(lines) == 6
     assert not (run / "here" / "fields.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("path", "reason"),
+    [
+        ("probes/wafer/shear", "walls: skipped: the result has no probes/wafer/shear"),
+        ("series/time", "totals: skipped: the result has no series/time"),
+    ],
+)
+def test_a_column_that_is_missing_is_named(run, monkeypatch, path, reason):
+    with h5py.File(run / "result.h5", "a") as file:
+        del file[path]
+    only(monkeypatch, reason.split(":")[0])
+    assert plot.save(open_run(run), run / "plots") == ([], [reason])
+
+
+def test_columns_that_do_not_fit_are_skipped(run, monkeypatch):
+    with h5py.File(run / "result.h5", "a") as file:
+        del file["series/time"]
+        file["series/time"] = TIMES[:-7]
+    only(monkeypatch, "totals")
+    written, skipped = plot.save(open_run(run), run / "plots")
+    assert not written
+    assert "totals: skipped: x and y must have same first dimension" in skipped[0]
 
 
 def damage(run, kind):
@@ -133,10 +161,11 @@ def test_what_is_not_a_run_is_refused_in_one_line(run, capsys, kind, reason):
     assert not (run / "plots").exists()
 
 
-def test_a_failed_run_can_be_drawn_by_its_file(run):
+def test_a_failed_run_can_be_drawn_by_its_file(run, monkeypatch):
     damage(run, "failed")
+    only(monkeypatch, "totals")
     assert plot.main([str(run / "failed.h5")]) == 0
-    assert (run / "plots" / "fields.png").exists()
+    assert (run / "plots" / "totals.png").exists()
 
 
 def legends(figure):
@@ -167,11 +196,12 @@ def test_gaps_in_series_and_walls_are_counted(run):
     assert legends(walls["wall_wafer_over_time"]) == ["not finite: 40 of 4040"]
 
 
-def test_what_is_never_finite_is_said_to_be_so(run, capsys):
+def test_what_is_never_finite_is_said_to_be_so(run, monkeypatch):
     for path in ("snapshots/0000/velocity_x", "probes/wafer/pressure", "series/kinetic_energy"):
         change(run, path, slice(None), np.nan)
-    assert plot.main([str(run)]) == 0
-    assert "fields: skipped: no particle has a speed" in capsys.readouterr().out
+    only(monkeypatch, "fields")
+    assert plot.save(open_run(run), run)[1] == ["fields: skipped: no particle has a speed"]
+    FIGURES["totals"](open_run(run))
     figure = FIGURES["walls"](open_run(run))["wall_wafer"]
     assert legends(figure) == ["pressure - mean (not finite: 40 of 40)"]
 
