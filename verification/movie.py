@@ -36,8 +36,9 @@ def write(result: Result, out: Path, rate: int, field: str = "vorticity") -> int
     figure = Figure(figsize=(width + 2, height + 1), layout="compressed")
     axes = figure.subplots()
     limit = limit_of(result, times[len(times) // 2 :], field)
-    bar = figure.colorbar(draw(axes, result, times[-1], field, limit), ax=axes, extend="both")
-    label(bar.ax.yaxis, FIELDS[field].name, FIELDS[field].unit)
+    shown = FIELDS[field]
+    bar = figure.colorbar(draw(axes, result, times[-1], field, limit), ax=axes, extend=shown.beyond)
+    label(bar.ax.yaxis, shown.name, shown.unit)
     axes.set_title("t")  # room for the title
     figure.draw_without_rendering()
     figure.set_layout_engine("none")  # what is drawn must not move from frame to frame

@@ -65,6 +65,11 @@ class Field:
     colours: str
     signed: bool = True
 
+    @property
+    def beyond(self) -> str:
+        """The ends of the colour scale that some particles are beyond."""
+        return "both" if self.signed else "max"
+
 
 FIELDS = {
     "speed": Field(speed, "speed", "m/s", "viridis", signed=False),
@@ -87,12 +92,13 @@ def draw(
     axes: Axes, result: Result, time: float, field: str = "vorticity", limit: float | None = None
 ) -> EllipseCollection:
     """Draws the snapshot at `time`; a value beyond `limit` has the colour of the limit. Particles whose value
-    is not finite are drawn as such, and counted in a legend.
+    or place is not finite are counted in a legend, and marked where they have a place.
     """
     particles, wall = result.snapshot(time)
     if not len(particles.position):
         raise DataError("the snapshot holds no fluid particles")
-    shown, values = FIELDS[field], FIELDS[field].values(particles)
+    shown, placed = FIELDS[field], np.isfinite(particles.position).all(axis=1)
+    values = np.where(placed, shown.values(particles), np.nan)
     limit = limit_of(result, [time], field) if limit is None else limit
     size = DOT * _spacing(particles.position)
     dots = _dots(axes, particles.position, size, cmap=shown.colours)

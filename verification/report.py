@@ -124,7 +124,7 @@ def blocks(results: dict[str, Any], pictures: Sequence[Picture], notes: Sequence
     content: list[Block] = [
         f"Level {results['level']}, commit {results['commit']}, {results['generated']}, "
         f"{machine['processor']} ({machine['cores']} cores), {machine['system']}.",
-        *filter(None, [cards(results, pictures)]),
+        cards(results, pictures),
         "# Verification",
         "A check passes only if its error at the finest spacing is finite and at most its tolerance, and the "
         "observed order over the spacings lies in its band where one is stated.",

@@ -34,7 +34,7 @@ def fields(result: Result) -> Figures:
     figure = Figure(figsize=size, layout="compressed")
     for axes, (name, field) in zip(figure.subplots(*shape).flat, FIELDS.items(), strict=True):
         dots = draw(axes, result, time, name)
-        bar = figure.colorbar(dots, ax=axes, extend="both" if field.signed else "max")
+        bar = figure.colorbar(dots, ax=axes, extend=field.beyond)
         label(bar.ax.yaxis, "", field.unit)
         axes.set_title(field.name)
     figure.suptitle(f"t = {text(time, 's')}")

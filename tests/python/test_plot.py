@@ -183,6 +183,10 @@ def test_particles_that_are_not_finite_are_shown_where_they_are(run):
     ]
     np.testing.assert_allclose(marks[-1].get_offsets(), [[5.5e-6, 1.5e-6]])
     assert MISSING == "magenta"
+    change(run, "snapshots/0000/position_y", 7, np.nan)
+    assert legends(FIGURES["fields"](open_run(run))["fields"]) == [
+        f"not finite: {n} particles" for n in (3, 2, 3)
+    ]
 
 
 def test_gaps_in_series_and_walls_are_counted(run):
