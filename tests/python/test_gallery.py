@@ -47,6 +47,12 @@ def test_a_sentence_says_how_it_stands(change, said, verdict):
     assert found == verdict
 
 
+def test_a_run_without_an_error_is_the_worst():
+    words, verdict = gallery.sentence("rough_channel", entries({}, {"value": None, "passed": False}))
+    assert "no finite error in the worst of 2" in words
+    assert verdict == "failed"
+
+
 def test_what_is_only_reported_does_not_stand_for_a_case():
     runs = entries({}, {"value": 0.5, "reported": True, "passed": False})
     assert gallery.sentence("rough_channel", runs)[1] == "passed"

@@ -230,4 +230,5 @@ def test_a_picture_has_the_walls_and_every_image_of_a_disc(run):
     axes = Figure().subplots()
     draw(axes, open_run(run), 1.0, "speed")
     assert axes.get_ylim()[1] > 2.05e-5
+    assert len(open_run(run).snapshot(1.0)[1]) == 41  # the disc's particle is none of the wall's
     assert sorted(round(1e6 * patch.center[0]) for patch in axes.patches) == [-30, 10, 50]
