@@ -215,15 +215,15 @@ class Result:
 def open_run(run: Path) -> Result:
     """The result of a run, by its folder or its file, with the scene that it says it is of."""
     path = run / "result.h5" if run.is_dir() else run
+    if not path.is_file():
+        hint = "; a run that failed is in failed.h5" if (run / "failed.h5").exists() else ""
+        raise DataError(f"there is no {path}: give the folder that `slurry run` wrote{hint}")
     try:
         with h5py.File(path, "r") as file:
             scene = tomllib.loads(str(file.attrs["scene"]))
         return Result(path, scene["output"]["end_time"], scene)
     except (OSError, RuntimeError, KeyError, tomllib.TOMLDecodeError) as error:
-        hint = "; a run that failed is in failed.h5" if (run / "failed.h5").exists() else ""
-        raise DataError(
-            f"{path} is not the result of a run: {error}; give the folder that `slurry run` wrote{hint}"
-        ) from error
+        raise DataError(f"{path} is not the result of a run: {error}") from error
 
 
 def _group(parent: h5py.Group, name: str) -> h5py.Group:
