@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test test-kill reference verify stability report faults mutations claims baseline bench bench-peers bands ablation counts figures test-slurm lint sanitize fuzz flows format docs clean
+.PHONY: help setup configure build test test-kill reference verify stability report faults mutations claims baseline bench bench-peers bands ablation counts figures plot movie test-slurm lint sanitize fuzz flows format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -30,6 +30,13 @@ figures: build ## Sweeps, ensembles and their figures (build/figures), on all co
 	@$(PYTHON) -m verification.workflow --level $(LEVEL) --cores $(JOBS)
 	@env -u MAKEFLAGS -u MFLAGS $(PYTHON) -m snakemake --profile verification/profiles/local --cores $(JOBS) \
 	    --config level=$(LEVEL)
+
+plot: setup ## Pictures of a run into RUN/plots: make plot RUN=FOLDER, the folder that `slurry run` wrote
+	@$(PYTHON) -m verification.plot $(if $(RUN),"$(RUN)")
+
+FIELD ?= vorticity
+movie: setup ## A movie of a run with snapshots: make movie RUN=FOLDER FIELD=vorticity, pressure or speed
+	@$(PYTHON) -m verification.movie $(if $(RUN),"$(RUN)") --field $(FIELD)
 
 test-slurm: build ## A small ensemble through a Slurm cluster of this machine alone; skipped where that cannot run
 	@scripts/test_slurm

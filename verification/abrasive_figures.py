@@ -11,7 +11,6 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from reference import load
 from verification.abrasive_report import ENSEMBLE
@@ -21,7 +20,9 @@ from verification.case import ROOT, load_case
 from verification.compare import Array, DataError
 from verification.figures import COLOURS, MARKERS, MICRO, Data
 from verification.measure import Result
+from verification.picture import draw
 
+WALL_SPEED = 1.0  # m/s, between wafer and pad
 DRAWN_BANDS = (0.01, 0.02, 0.05)
 DRAWN_MODELS = ("cube root", "linear", "1 - exp(-lambda n)")
 
@@ -57,28 +58,11 @@ def passing(data: Data) -> Figure:
     figure = Figure(figsize=(9, 8), layout="constrained")
     panels = figure.subplots(2, 1, sharex=True)
     for axes, time, what in zip(panels, moments(result), ("in the gap", "beyond the gap"), strict=True):
-        particles = result.particles(time)
-        speed = np.linalg.norm(particles.velocity, axis=1)
-        style = {"s": 1e5 / len(speed), "cmap": "viridis", "vmin": 0, "vmax": 1, "linewidths": 0}
-        dots = axes.scatter(*MICRO * particles.position.T, c=speed, rasterized=True, **style)
-        _draw_discs(axes, result, time)
-        axes.set(title=f"{what}, t = {MICRO * time:.1f} µs", ylabel="y (µm)", aspect="equal")
-        axes.grid(False)
-    panels[-1].set(xlabel="x in the pad's frame (µm)")
+        dots = draw(axes, result, time, "speed", WALL_SPEED)
+        axes.set(title=f"{what}, t = {MICRO * time:.1f} µs", xlabel="x in the pad's frame (µm)")
+        axes.label_outer()
     figure.colorbar(dots, ax=list(panels), label="speed (m/s)", shrink=0.7)
     return figure
-
-
-def _draw_discs(axes: Axes, result: Result, time: float) -> None:
-    length = result.scene["domain"]["upper"][0]
-    for name in result.disc_names():
-        stamps, position = result.disc(name, "position")
-        x, y = position[np.argmin(np.abs(stamps - time))]
-        radius = result.disc_constant(name, "radius")
-        circle = Circle(
-            (MICRO * (x % length), MICRO * y), MICRO * radius, facecolor="white", edgecolor="black"
-        )
-        axes.add_patch(circle)
 
 
 def passing_wafer(data: Data) -> Figure:

@@ -16,7 +16,7 @@ from verification.compare import DataError
 from verification.derived import DERIVED
 from verification.figures import COLOURS, MARKERS, Data
 from verification.phases import PHASES, phases
-from verification.picture import draw
+from verification.picture import draw, limit_of
 from verification.truth import of_disc
 
 MOST_LINES = 2  # more variants are drawn as a band
@@ -128,10 +128,11 @@ def snapshots(data: Data) -> Figure:
     width, height = np.subtract(scene["domain"]["upper"], scene["domain"]["lower"])
     figure = Figure(figsize=(2.4 * len(times) * max(1, width / height * 2) + 1, 6.5), layout="constrained")
     axes = figure.subplots(1, len(times), squeeze=False, sharey=True)[0]
+    limit = limit_of(result, times, "vorticity")
     for axis, time in zip(axes, times, strict=True):
-        dots = draw(axis, result, time)
+        dots = draw(axis, result, time, "vorticity", limit)
         axis.set_title(f"t = {time:.3g} s")
-    axes[0].set_ylabel("y (m)")
+        axis.label_outer()
     figure.colorbar(dots, ax=list(axes), label="vorticity (1/s)", shrink=0.7)
     return figure
 

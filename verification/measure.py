@@ -5,6 +5,7 @@ Everything that is not there, too short, out of order or not finite raises DataE
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +19,7 @@ from verification.compare import Array, DataError, require_series
 # A sample stands for a wanted time when it is within this share of the end time. The reference is taken at
 # the sample's own time: this only tells a run that ended early from one whose step does not divide the time.
 TIME_MATCH = 1e-3
+COLUMNS = ("position_x", "position_y", "velocity_x", "velocity_y", "pressure")  # of a snapshot that are read
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,18 @@ class WallSample:
     x: Array
     pressure: Array
     shear: Array
+
+
+class Columns(dict[str, Array]):
+    """The datasets of a group by name, and their units; one that is not there raises DataError."""
+
+    def __init__(self, group: str) -> None:
+        super().__init__()
+        self.group = group
+        self.units: dict[str, str] = {}
+
+    def __missing__(self, name: str) -> Array:
+        raise DataError(f"the result has no {self.group}/{name}")
 
 
 class Result:
@@ -81,22 +95,48 @@ class Result:
         stamps = self.snapshot_times()
         index = int(np.argmin(np.abs(stamps - wanted)))
         self._near(stamps[index], wanted, f"snapshot {index}")
+        particles, _ = self._snapshot(index, stamps[index])
+        expected = int(self.attributes().get("fluid_particles", -1))
+        if len(particles.position) != expected:
+            raise DataError(f"snapshot {index} holds {len(particles.position)} of {expected} fluid particles")
+        columns = np.column_stack([particles.position, particles.velocity, particles.pressure]).T
+        for name, values in zip(COLUMNS, columns, strict=True):
+            require_series(f"{name} of the particles", values)
+        return particles
+
+    def snapshot(self, time: float) -> tuple[Particles, Array]:
+        """The fluid as it stands at the snapshot nearest to `time`, with what is not finite, and the places
+        (n, 2) in m of the walls' particles.
+        """
+        stamps = self.snapshot_times()
+        index = int(np.argmin(np.abs(stamps - time)))
+        return self._snapshot(index, stamps[index])
+
+    def _snapshot(self, index: int, time: float) -> tuple[Particles, Array]:
         with self._open() as file:
             snapshots = _group(file, "snapshots")
             snapshot = snapshots[list(snapshots)[index]]
-            fluid = _dataset(snapshot, "wall") < 0
-            expected = int(_group(file, "run").attrs.get("fluid_particles", -1))
-            if np.count_nonzero(fluid) != expected:
-                raise DataError(
-                    f"snapshot {index} holds {np.count_nonzero(fluid)} of {expected} fluid particles"
-                )
-            columns = [
-                require_series(f"{name} of the particles", _dataset(snapshot, name)[fluid])
-                for name in ("position_x", "position_y", "velocity_x", "velocity_y", "pressure")
-            ]
-            return Particles(
-                float(stamps[index]), np.stack(columns[:2], 1), np.stack(columns[2:4], 1), columns[4]
-            )
+            owner = _dataset(snapshot, "wall")
+            columns = [_dataset(snapshot, name) for name in COLUMNS]
+        if any(column.shape != owner.shape for column in columns):
+            raise DataError(f"snapshot {index} has not one {', '.join(COLUMNS)} for each particle")
+        fluid, wall = owner < 0, (owner >= 0) & (owner < len(self.scene.get("walls", [])))  # then come discs
+        values = np.array(columns, dtype=float).T
+        particles = Particles(float(time), values[fluid, :2], values[fluid, 2:4], values[fluid, 4])
+        return particles, values[wall, :2]
+
+    def holds(self, group: str) -> bool:
+        with self._open() as file:
+            return isinstance(file.get(group), h5py.Group)
+
+    def columns(self, group: str) -> Columns:
+        """Every dataset of a group as it stands: with NaN, where a probe found nothing."""
+        found = Columns(group)
+        with self._open() as file:
+            for name, dataset in _group(file, group).items():
+                found[name] = np.atleast_1d(dataset[()]).astype(float)
+                found.units[name] = str(dataset.attrs.get("unit", "1"))
+        return found
 
     def wall(self, probe: str) -> WallSample:
         """The probe's last sample."""
@@ -170,6 +210,20 @@ class Result:
         if name not in names or len(values) != len(names):
             raise DataError(f"the result has no {field} of disc {name}")
         return float(values[names.index(name)])
+
+
+def open_run(run: Path) -> Result:
+    """The result of a run, by its folder or its file, with the scene that it says it is of."""
+    path = run / "result.h5" if run.is_dir() else run
+    if not path.is_file():
+        hint = "; a run that failed is in failed.h5" if (run / "failed.h5").exists() else ""
+        raise DataError(f"there is no {path}: give the folder that `slurry run` wrote{hint}")
+    try:
+        with h5py.File(path, "r") as file:
+            scene = tomllib.loads(str(file.attrs["scene"]))
+        return Result(path, scene["output"]["end_time"], scene)
+    except (OSError, RuntimeError, KeyError, tomllib.TOMLDecodeError) as error:
+        raise DataError(f"{path} is not the result of a run: {error}") from error
 
 
 def _group(parent: h5py.Group, name: str) -> h5py.Group:

@@ -1,23 +1,50 @@
-"""One moment of a run: particles coloured by vorticity, discs with a spoke that shows how they turned."""
+"""One moment of a run: particles coloured by a field, walls, discs with a spoke that shows their turn."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import product
+
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PathCollection
+from matplotlib.collections import EllipseCollection
 from matplotlib.patches import Circle
 from scipy.spatial import cKDTree
 
 from verification.compare import Array, DataError
 from verification.measure import Particles, Result
+from verification.units import label
 
 NEIGHBOURS = 20
 SHOWN = 0.99  # of the particles lie within the colour scale
+DOT = 1.8  # diameter of a drawn particle over the distance to its nearest neighbour: no white between them
+WALL, MISSING = "0.55", "magenta"
+
+
+def speed(particles: Particles) -> Array:
+    """Magnitude of the velocity (n,), m/s."""
+    return np.linalg.norm(particles.velocity, axis=1)
+
+
+def less_mean(values: Array) -> Array:
+    """Values less the mean of those along the last axis that are finite."""
+    mean = np.ma.masked_invalid(values).mean(axis=-1, keepdims=True)
+    return values - np.ma.filled(mean, np.nan)
+
+
+def pressure(particles: Particles) -> Array:
+    """Pressure (n,) less its mean, Pa: the gauge of an incompressible pressure is free."""
+    return less_mean(particles.pressure)
 
 
 def vorticity(particles: Particles) -> Array:
-    """dv/dx - du/dy (n,) at the particles, from linear fits to their nearest neighbours."""
-    position, velocity = particles.position, particles.velocity
+    """dv/dx - du/dy (n,) in 1/s at the particles, from linear fits to their nearest neighbours; NaN where the
+    velocity is not finite.
+    """
+    values = np.full(len(particles.position), np.nan)
+    there = np.isfinite(np.hstack([particles.position, particles.velocity])).all(axis=1)
+    position, velocity = particles.position[there], particles.velocity[there]
     if len(position) <= NEIGHBOURS:
         raise DataError(f"{len(position)} particles are too few for a vorticity")
     _, near = cKDTree(position).query(position, k=NEIGHBOURS + 1)
@@ -26,25 +53,120 @@ def vorticity(particles: Particles) -> Array:
     gradient = np.linalg.solve(
         np.einsum("nki,nkj->nij", apart, apart), np.einsum("nki,nkj->nij", apart, change)
     )
-    return gradient[:, 0, 1] - gradient[:, 1, 0]
+    values[there] = gradient[:, 0, 1] - gradient[:, 1, 0]
+    return values
 
 
-def draw(axes: Axes, result: Result, time: float, limit: float | None = None) -> PathCollection:
-    """Draws the snapshot at `time`; vorticity beyond +- `limit` (1/s) has the colour of the limit."""
-    lower, upper = (np.array(result.scene["domain"][key]) for key in ("lower", "upper"))
-    particles = result.particles(time)
-    values = vorticity(particles)
-    limit = np.quantile(np.abs(values), SHOWN) if limit is None else limit
-    style = {"cmap": "RdBu_r", "vmin": -limit, "vmax": limit, "linewidths": 0}
-    dots = axes.scatter(*particles.position.T, c=values, s=2e4 / len(values), rasterized=True, **style)
+@dataclass(frozen=True)
+class Field:
+    values: Callable[[Particles], Array]
+    name: str
+    unit: str
+    colours: str
+    signed: bool = True
+
+    @property
+    def beyond(self) -> str:
+        """The ends of the colour scale that some particles are beyond."""
+        return "both" if self.signed else "max"
+
+
+FIELDS = {
+    "speed": Field(speed, "speed", "m/s", "viridis", signed=False),
+    "pressure": Field(pressure, "pressure - mean", "Pa", "RdBu_r"),
+    "vorticity": Field(vorticity, "vorticity", "1/s", "RdBu_r"),
+}
+
+
+def limit_of(result: Result, times: Sequence[float], field: str) -> float:
+    """The end of a colour scale that suits the snapshots at `times`."""
+    values = [np.abs(FIELDS[field].values(result.snapshot(time)[0])) for time in times]
+    found = np.concatenate(values)
+    found = found[np.isfinite(found)]
+    if not len(found):
+        raise DataError(f"no particle has a {field}")
+    return float(np.quantile(found, SHOWN)) or 1.0
+
+
+def draw(
+    axes: Axes, result: Result, time: float, field: str = "vorticity", limit: float | None = None
+) -> EllipseCollection:
+    """Draws the snapshot at `time`; a value beyond `limit` has the colour of the limit. Particles whose value
+    or place is not finite are counted in a legend, and marked where they have a place.
+    """
+    particles, wall = result.snapshot(time)
+    if not len(particles.position):
+        raise DataError("the snapshot holds no fluid particles")
+    shown, placed = FIELDS[field], np.isfinite(particles.position).all(axis=1)
+    values = np.where(placed, shown.values(particles), np.nan)
+    limit = limit_of(result, [time], field) if limit is None else limit
+    size = DOT * _spacing(particles.position)
+    dots = _dots(axes, particles.position, size, cmap=shown.colours)
+    dots.set_array(np.ma.masked_invalid(values))
+    dots.set_clim(-limit if shown.signed else 0.0, limit)
+    dots.cmap = dots.cmap.with_extremes(bad=(0, 0, 0, 0))
+    scenery(axes, result, wall, particles.time)
+    if np.any(missing := ~np.isfinite(values)):
+        _dots(axes, particles.position[missing], 2 * size, facecolor=MISSING, zorder=4)
+        axes.plot([], [], "o", color=MISSING, label=f"not finite: {np.count_nonzero(missing)} particles")
+        axes.legend(loc="upper right")
+    return dots
+
+
+def scenery(axes: Axes, result: Result, wall: Array, time: float) -> None:
+    """Walls, by their particles (n, 2) in m, discs at `time`, and the domain with the walls beyond it."""
+    lower, upper = bounds(result)
+    if len(wall):
+        size = DOT * _spacing(wall)
+        _dots(axes, wall, size, facecolor=WALL)
+        closed = ~periodic(result)
+        lower = np.where(closed, np.minimum(lower, wall.min(axis=0) - size / 2), lower)
+        upper = np.where(closed, np.maximum(upper, wall.max(axis=0) + size / 2), upper)
+    if result.holds("discs"):
+        _draw_discs(axes, result, time)
+    axes.set(xlim=(lower[0], upper[0]), ylim=(lower[1], upper[1]), aspect="equal")
+    axes.grid(False)
+    label(axes.xaxis, "x", "m")
+    label(axes.yaxis, "y", "m")
+
+
+def _spacing(position: Array) -> float:
+    """The distance from a particle to its nearest neighbour, the median of all with a place."""
+    position = position[np.isfinite(position).all(axis=1)]
+    if len(position) < 2:
+        raise DataError(f"the snapshot has {len(position)} particles with a place, too few for a picture")
+    return float(np.median(cKDTree(position).query(position, k=2)[0][:, 1]))
+
+
+def _dots(axes: Axes, position: Array, size: float, **style: object) -> EllipseCollection:
+    """Circles whose diameter is in m, and so fits the spacing whatever the figure's size."""
+    sizes = np.full(len(position), size)
+    dots = EllipseCollection(
+        sizes, sizes, np.zeros(len(position)), units="xy", offsets=position,
+        offset_transform=axes.transData, linewidths=0, rasterized=True, **style,
+    )  # fmt: skip
+    return axes.add_collection(dots, autolim=False)
+
+
+def bounds(result: Result) -> tuple[Array, Array]:
+    return tuple(np.array(result.scene["domain"][key]) for key in ("lower", "upper"))
+
+
+def periodic(result: Result) -> Array:
+    """Whether the domain goes on across its sides along x and y (2,)."""
+    return np.array([axis in result.scene["domain"].get("periodic", "none") for axis in "xy"])
+
+
+def _draw_discs(axes: Axes, result: Result, time: float) -> None:
+    lower, upper = bounds(result)
+    size = (upper - lower) * periodic(result)
     for name in result.disc_names():
         times, centres = result.disc(name, "position")
-        moment = int(np.argmin(np.abs(times - particles.time)))
-        centre = lower + (centres[moment] - lower) % (upper - lower)  # positions go on across periodic sides
+        moment = int(np.argmin(np.abs(times - time)))
         radius, angle = result.disc_constant(name, "radius"), result.disc(name, "angle")[1][moment]
-        axes.add_patch(Circle(centre, radius, facecolor="0.85", edgecolor="black"))
-        spoke = centre + radius * np.array([np.cos(angle), np.sin(angle)])
-        axes.plot(*np.stack([centre, spoke], axis=1), "k-", linewidth=1)
-    axes.set(xlim=(lower[0], upper[0]), ylim=(lower[1], upper[1]), aspect="equal", xlabel="x (m)")
-    axes.grid(False)
-    return dots
+        home = np.where(size > 0, lower + (centres[moment] - lower) % (upper - lower), centres[moment])
+        for image in product(*((-1, 0, 1) if length else (0,) for length in size)):
+            centre = home + size * image
+            axes.add_patch(Circle(centre, radius, facecolor="0.9", edgecolor="black", zorder=3))
+            spoke = centre + radius * np.array([np.cos(angle), np.sin(angle)])
+            axes.plot(*np.stack([centre, spoke], axis=1), "k-", linewidth=1, zorder=3)

@@ -20,6 +20,7 @@ from verification import abrasive_figures, asperity_figures, baseline, disc_figu
 from verification.case import ROOT, CaseError, Variant, load_case
 from verification.compare import DataError
 from verification.figures import STYLE, Data
+from verification.gallery import cards, title
 from verification.page import Block, Picture, Table, to_html, to_markdown
 from verification.results import standing, summary
 
@@ -123,6 +124,7 @@ def blocks(results: dict[str, Any], pictures: Sequence[Picture], notes: Sequence
     content: list[Block] = [
         f"Level {results['level']}, commit {results['commit']}, {results['generated']}, "
         f"{machine['processor']} ({machine['cores']} cores), {machine['system']}.",
+        cards(results, pictures),
         "# Verification",
         "A check passes only if its error at the finest spacing is finite and at most its tolerance, and the "
         "observed order over the spacings lies in its band where one is stated.",
@@ -130,7 +132,10 @@ def blocks(results: dict[str, Any], pictures: Sequence[Picture], notes: Sequence
     ]
     if (failures := failure_table(results)).rows:
         content += ["# What fails, and why", failures]
-    content += ["# Figures", *pictures, *notes]
+    content.append("# Figures")
+    for case in dict.fromkeys(picture.case for picture in pictures):
+        content += [f"## {title(case)}", *(picture for picture in pictures if picture.case == case)]
+    content += notes
     content += ["# What the checks are", definition_table(results), "# Runs", run_table(results)]
     if "baseline" in results:
         changes = " ".join(baseline.lines(results)) or "Nothing has changed."
@@ -169,9 +174,8 @@ def draw(results: dict[str, Any], out: Path, references: Any) -> tuple[list[Pict
                 with matplotlib.rc_context(STYLE):
                     path = folder / f"{name}_{kind}.png"
                     FIGURES[kind](data).savefig(path)
-                pictures.append(
-                    Picture(f"{name}_{kind}", path, f"{name.replace('_', ' ')}: {CAPTIONS[kind]}")
-                )
+                caption = f"{name.replace('_', ' ')}: {CAPTIONS[kind]}"
+                pictures.append(Picture(f"{name}_{kind}", path, caption, name))
             except (DataError, ValueError) as error:  # the check of the same data has failed and says so
                 notes.append(f"No figure {kind} of {name}: {error}")
     return pictures, notes

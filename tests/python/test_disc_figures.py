@@ -115,12 +115,15 @@ def run(tmp_path):
     return result.path.parent
 
 
-def test_a_movie_has_a_frame_for_each_snapshot(run, capsys, monkeypatch):
+@pytest.mark.parametrize(
+    ("choice", "name"), [([], "vorticity.gif"), (["--field", "pressure"], "pressure.gif")]
+)
+def test_a_movie_has_a_frame_for_each_snapshot(run, capsys, monkeypatch, choice, name):
     monkeypatch.setattr(movie.animation.FFMpegWriter, "isAvailable", lambda: False)
-    assert movie.main([str(run)]) == 0
-    assert capsys.readouterr().out == f"{run / 'movie.gif'}: 3 frames\n"
-    assert (run / "movie.gif").read_bytes()[:4] == b"GIF8"
-    assert sorted(path.name for path in run.iterdir()) == ["movie.gif", "result.h5"]
+    assert movie.main([str(run), *choice]) == 0
+    assert capsys.readouterr().out == f"{run / name}: 3 frames\n"
+    assert (run / name).read_bytes()[:4] == b"GIF8"
+    assert sorted(path.name for path in run.iterdir()) == sorted([name, "result.h5"])
     assert movie.main([str(run), "--out", str(run / "movie.mp4")]) == 2
     assert "where ffmpeg is installed" in capsys.readouterr().err
 

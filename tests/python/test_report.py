@@ -37,7 +37,7 @@ def test_markdown_names_every_finest_check(verified):
 def test_html_is_one_well_formed_page_with_its_pictures_inside(verified):
     text = (verified / "report.html").read_text()
     sources = re.findall(r'src="([^"]*)"', text)
-    assert len(sources) == 10
+    assert len(sources) == 3 + 10  # of the gallery and of the figures
     assert all(base64.b64decode(s.removeprefix("data:image/png;base64,"))[:4] == b"\x89PNG" for s in sources)
     assert "http" not in re.sub(r'src="[^"]*"', "", text)
     assert "class='verdict failed'" in text

@@ -1,0 +1,234 @@
+"""The pictures of a run, from small synthetic runs: what is held is drawn, what is missing is said."""
+
+import h5py
+import numpy as np
+import pytest
+from disc_fakes import TIMES, fields, write
+from matplotlib.figure import Figure
+
+from verification import plot
+from verification.measure import open_run
+from verification.picture import MISSING, draw
+from verification.run_figures import FIGURES
+
+SCENE = """
+[domain]
+lower = [0.0, 0.0]
+upper = [4e-5, 2e-5]
+periodic = "x"
+[[walls]]
+name = "wafer"
+velocity = [2e-5, 0.0]
+[[discs]]
+name = "disc"
+[[probes]]
+name = "wafer"
+kind = "wall"
+wall = "wafer"
+[[probes]]
+name = "middle"
+kind = "point"
+[output]
+end_time = 1.0
+"""
+N = 20
+
+
+def add(file, path, values, unit="1"):
+    file[path] = values
+    file[path].attrs["unit"] = unit
+
+
+@pytest.fixture
+def run(tmp_path):
+    """The folder of a run with all that can be drawn; its disc goes out on the right, in on the left."""
+    way = np.stack([3e-5 + 2e-5 * TIMES, np.full_like(TIMES, 1e-5)], axis=1)
+    path = write(tmp_path / "run", {"disc": fields(way, velocity_x=2e-5)}, radius=1e-6).path
+    x, y = (a.ravel() for a in np.meshgrid((np.arange(2 * N) + 0.5) * 1e-6, (np.arange(N) + 0.5) * 1e-6))
+    wall = np.stack([np.linspace(0, 4e-5, 41), np.full(41, 2.05e-5)])
+    along = np.linspace(0, 4e-5, 40, endpoint=False)
+    with h5py.File(path, "a") as file:
+        file.attrs["scene"] = SCENE
+        file["run"].attrs["fluid_particles"] = len(x)
+        add(file, "series/kinetic_energy", 1e-9 * TIMES, "J/m")
+        snapshot = file.create_group("snapshots/0000")
+        snapshot.attrs["time"] = 1.0
+        snapshot["wall"] = np.repeat([-1, 0, 1], [len(x), 41, 1])  # the last is of the disc
+        columns = [np.append(x, [*wall[0], 0]), np.append(y, [*wall[1], 0])]
+        columns += [np.append(y, np.zeros(42)), np.zeros(len(x) + 42), np.append(x, np.full(42, np.nan))]
+        for name, values in zip(
+            ("position_x", "position_y", "velocity_x", "velocity_y", "pressure"), columns, strict=True
+        ):
+            snapshot[name] = values
+        for name, values in (("time", TIMES), ("x", along), ("arc_length", along)):
+            add(file, f"probes/wafer/{name}", values)
+        for name in ("pressure", "shear"):
+            add(file, f"probes/wafer/{name}", np.tile(np.cos(along / 4e-6), (len(TIMES), 1)), "Pa")
+        for name in ("time", "pressure", "velocity_x", "velocity_y"):
+            add(file, f"probes/middle/{name}", TIMES, "Pa")
+    return path.parent
+
+
+def change(run, path, index, value):
+    with h5py.File(run / "result.h5", "a") as file:
+        values = file[path][()]
+        values[index] = value
+        file[path][...] = values
+
+
+def only(monkeypatch, kind):
+    monkeypatch.setattr(plot, "FIGURES", {kind: FIGURES[kind]})
+
+
+NAMES = ["fields", "wall_wafer", "wall_wafer_over_time", "discs", "points", "totals"]
+
+
+def test_all_that_a_run_holds_is_drawn_and_listed(run, capsys):
+    assert plot.main([str(run)]) == 0
+    out = capsys.readouterr().out
+    assert out == "".join(f"{run / 'plots' / name}.png\n" for name in NAMES)
+    assert sorted(path.stem for path in (run / "plots").iterdir()) == sorted(NAMES)
+    assert all(path.read_bytes()[:4] == b"\x89PNG" for path in (run / "plots").iterdir())
+
+
+def test_what_a_run_does_not_hold_is_skipped_with_a_reason(run, capsys):
+    with h5py.File(run / "result.h5", "a") as file:
+        del file["snapshots/0000"], file["discs"]
+    assert plot.main([str(run), "--out", str(run / "here")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[:2] == [
+        "fields: skipped: the snapshots holds no data",
+        "discs: skipped: the run has no discs",
+    ]
+    assert len(lines) == 6
+    assert not (run / "here" / "fields.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("path", "reason"),
+    [
+        ("probes/wafer/shear", "walls: skipped: the result has no probes/wafer/shear"),
+        ("series/time", "totals: skipped: the result has no series/time"),
+    ],
+)
+def test_a_column_that_is_missing_is_named(run, monkeypatch, path, reason):
+    with h5py.File(run / "result.h5", "a") as file:
+        del file[path]
+    only(monkeypatch, reason.split(":")[0])
+    assert plot.save(open_run(run), run / "plots") == ([], [reason])
+
+
+def test_columns_that_do_not_fit_are_skipped(run, monkeypatch):
+    with h5py.File(run / "result.h5", "a") as file:
+        del file["series/time"]
+        file["series/time"] = TIMES[:-7]
+    only(monkeypatch, "totals")
+    written, skipped = plot.save(open_run(run), run / "plots")
+    assert not written
+    assert "totals: skipped: x and y must have same first dimension" in skipped[0]
+
+
+def damage(run, kind):
+    path = run / "result.h5"
+    if kind == "truncated":
+        path.write_bytes(path.read_bytes()[:-2000])
+    elif kind == "no_scene":
+        with h5py.File(path, "a") as file:
+            del file.attrs["scene"]
+    elif kind == "empty":
+        with h5py.File(path, "a") as file:
+            del file["snapshots"], file["series"], file["discs"], file["probes"]
+    else:
+        path.rename(run / "failed.h5")
+
+
+@pytest.mark.parametrize(
+    ("kind", "reason"),
+    [
+        ("truncated", "truncated file"),
+        ("no_scene", "not the result of a run"),
+        ("empty", "nothing that can be drawn"),
+        ("failed", "a run that failed is in failed.h5"),
+    ],
+)
+def test_what_is_not_a_run_is_refused_in_one_line(run, capsys, kind, reason):
+    damage(run, kind)
+    assert plot.main([str(run)]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("plot: ")
+    assert reason in error
+    assert len(error.splitlines()) == 1
+    assert not (run / "plots").exists()
+
+
+def test_a_failed_run_can_be_drawn_by_its_file(run, monkeypatch):
+    damage(run, "failed")
+    only(monkeypatch, "totals")
+    assert plot.main([str(run / "failed.h5")]) == 0
+    assert (run / "plots" / "totals.png").exists()
+
+
+def legends(figure):
+    return [text.get_text() for axes in figure.axes if axes.get_legend() for text in axes.get_legend().texts]
+
+
+def test_particles_that_are_not_finite_are_shown_where_they_are(run):
+    change(run, "snapshots/0000/pressure", 45, np.nan)
+    change(run, "snapshots/0000/velocity_x", [45, 46], np.inf)
+    figure = FIGURES["fields"](open_run(run))["fields"]
+    assert legends(figure) == [f"not finite: {n} particles" for n in (2, 1, 2)]
+    axes = figure.axes[1]
+    marks = [
+        dots for dots in axes.collections if dots.get_facecolor()[0, 0] == dots.get_facecolor()[0, 2] == 1
+    ]
+    np.testing.assert_allclose(marks[-1].get_offsets(), [[5.5e-6, 1.5e-6]])
+    assert MISSING == "magenta"
+    change(run, "snapshots/0000/position_y", 7, np.nan)
+    assert legends(FIGURES["fields"](open_run(run))["fields"]) == [
+        f"not finite: {n} particles" for n in (3, 2, 3)
+    ]
+
+
+def test_gaps_in_series_and_walls_are_counted(run):
+    for path in ("series/kinetic_energy", "probes/middle/pressure", "probes/wafer/shear"):
+        change(run, path, -1, np.nan)
+    result = open_run(run)
+    assert "fluid (not finite: 1 of 101)" in legends(FIGURES["totals"](result)["totals"])
+    assert "middle (not finite: 1 of 101)" in legends(FIGURES["points"](result)["points"])
+    walls = FIGURES["walls"](result)
+    assert legends(walls["wall_wafer"]) == ["shear (not finite: 40 of 40)"]
+    assert legends(walls["wall_wafer_over_time"]) == ["not finite: 40 of 4040"]
+
+
+def test_what_is_never_finite_is_said_to_be_so(run, monkeypatch):
+    for path in ("snapshots/0000/velocity_x", "probes/wafer/pressure", "series/kinetic_energy"):
+        change(run, path, slice(None), np.nan)
+    only(monkeypatch, "fields")
+    assert plot.save(open_run(run), run)[1] == ["fields: skipped: no particle has a speed"]
+    FIGURES["totals"](open_run(run))
+    figure = FIGURES["walls"](open_run(run))["wall_wafer"]
+    assert legends(figure) == ["pressure - mean (not finite: 40 of 40)"]
+
+
+def test_a_wall_is_drawn_where_it_stands(run):
+    figure = FIGURES["walls"](open_run(run))["wall_wafer"]
+    x, pressure = figure.axes[0].lines[0].get_data()
+    assert np.all(np.diff(x) > 0)
+    assert x[0] == pytest.approx(0, abs=1e-12)
+    assert x[np.argmax(pressure)] == pytest.approx(2e-5)  # where the crest of x = 0 has come by time 1
+
+
+def test_a_way_across_the_periodic_side_is_broken_there(run):
+    line = FIGURES["discs"](open_run(run))["discs"].axes[0].lines
+    way = next(line for line in line if len(line.get_xdata()) > 50)
+    x = way.get_xdata()
+    assert np.count_nonzero(np.isnan(x)) == 1
+    assert np.nanmax(np.abs(np.diff(x))) < 1e-6
+
+
+def test_a_picture_has_the_walls_and_every_image_of_a_disc(run):
+    axes = Figure().subplots()
+    draw(axes, open_run(run), 1.0, "speed")
+    assert axes.get_ylim()[1] > 2.05e-5
+    assert len(open_run(run).snapshot(1.0)[1]) == 41  # the disc's particle is none of the wall's
+    assert sorted(round(1e6 * patch.center[0]) for patch in axes.patches) == [-30, 10, 50]
