@@ -4,13 +4,16 @@
 verification/ablation.toml on the cases of the latter. It keeps each case's errors in the output folder once
 it is through, and writes the table between the markers of accuracy.md; `--table-only` writes it again from
 what is kept. Errors are those that `make verify` checks; wall times are left to `make bench`, which wants the
-machine for itself. Exit status: 0; 1 when a run failed or a case is missing; 2 when it cannot start.
+machine for itself. Particles' paths are chaotic, so that one run's error is partly chance: each change is run
+from several starts that hardly differ (`start.seed`), and only what is beyond chance is marked. Exit status:
+0; 1 when a run failed or a case is missing; 2 when it cannot start.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import statistics
 import sys
 import tomllib
 from collections.abc import Mapping, Sequence
@@ -45,21 +48,32 @@ def file_of(folder: Path, case: Mapping[str, Any]) -> Path:
 
 def columns(rows: Rows) -> list[str]:
     """The quantities of a case; of one that is checked at several times only the worst is shown."""
-    return list(dict.fromkeys(quantity.split(" at ")[0] for quantity in rows[0]["errors"]))
+    return list(dict.fromkeys(quantity.split(" at ")[0] for quantity in rows[0]["members"][0]["errors"]))
 
 
-def worst(row: Mapping[str, Any], quantity: str) -> float:
-    return max(error for name, error in row["errors"].items() if name.split(" at ")[0] == quantity)
+def worst(errors: Mapping[str, float], quantity: str) -> float:
+    return max(error for name, error in errors.items() if name.split(" at ")[0] == quantity)
+
+
+def mean_and_chance(row: Mapping[str, Any], quantity: str) -> tuple[float, float]:
+    """Of the runs' errors; chance is the standard error of the mean, 0 for one run."""
+    errors = [worst(member["errors"], quantity) for member in row["members"] if not member["failure"]]
+    chance = statistics.stdev(errors) / len(errors) ** 0.5 if len(errors) > 1 else 0.0
+    return statistics.mean(errors), chance
 
 
 def cell(row: Mapping[str, Any] | None, base: Mapping[str, Any], quantity: str) -> str:
-    """An error in percent, bold where it is at most 0.9 of the default's, italic from 1.1 of it on."""
+    """A mean error in percent, bold where it is at most 0.9 of the default's, italic from 1.1 of it on, if
+    the difference is beyond twice what chance makes of it.
+    """
     if row is None:
         return ""
-    if row["failure"]:
-        return "stops"
-    error, usual = worst(row, quantity), worst(base, quantity)
-    text = f"{100 * error:.2g}"
+    if stopped := sum(bool(member["failure"]) for member in row["members"]):
+        return "stops" if stopped == len(row["members"]) else f"{stopped} of {len(row['members'])} stop"
+    (error, chance), (usual, usual_chance) = mean_and_chance(row, quantity), mean_and_chance(base, quantity)
+    text = f"{100 * error:.2g}" + (f" ± {100 * chance:.1g}" if chance else "")
+    if abs(error - usual) <= 2 * (chance**2 + usual_chance**2) ** 0.5:
+        return text
     return f"**{text}**" if error <= 0.9 * usual else f"*{text}*" if error >= 1.1 * usual else text
 
 
@@ -79,9 +93,17 @@ def table(cases: Sequence[tuple[Mapping[str, Any], Rows]]) -> str:
 
 
 def measure(session: Session, cases: Sequence[Mapping[str, Any]], folder: Path) -> None:
-    for case in cases:
-        session.plan["ablation"]["cases"] = [dict(case)]
-        rows = [{key: row[key] for key in ("name", "errors", "failure")} for row in ablation.measure(session)]
+    for entry in cases:
+        case = dict(entry)
+        starts = range(1, case.pop("members", 1) + 1)
+        common = case.pop("settings", {})
+        session.plan["ablation"]["cases"] = [
+            {**case, "settings": {**common, "start.seed": seed}} for seed in starts
+        ]
+        members: dict[str, list[dict[str, Any]]] = {}
+        for row in ablation.measure(session):
+            members.setdefault(row["name"], []).append({key: row[key] for key in ("errors", "failure")})
+        rows = [{"name": name, "members": found} for name, found in members.items()]
         stored = {"commit": commit(), "rows": rows}
         file_of(folder, case).write_text(json.dumps(stored, indent=1) + "\n")
 

@@ -15,10 +15,34 @@ CASE = {"case": "poiseuille", "variant": "poiseuille", "spacing": 5e-7}
 
 
 def rows(*errors: dict[str, float]) -> list[dict[str, Any]]:
+    """One run of each change."""
     return [
-        {"name": name, "errors": of, "failure": ""}
+        {"name": name, "members": [{"errors": of, "failure": ""}]}
         for name, of in zip(("default scheme", "worse", "better"), errors, strict=True)
     ]
+
+
+def runs(*errors: float) -> list[dict[str, Any]]:
+    return [{"errors": {"velocity": error}, "failure": ""} for error in errors]
+
+
+def test_only_what_is_beyond_chance_is_marked() -> None:
+    found = rows(*[{"velocity": 0.01}] * 3)
+    found[0]["members"] = runs(0.01, 0.011, 0.009)
+    found[1]["members"] = runs(0.01, 0.03, 0.005)
+    found[2]["members"] = runs(0.005, 0.0051, 0.0049)
+    lines = ablation.table([(CASE, found)]).splitlines()
+    assert lines[2:] == [
+        "| default scheme | 1 ± 0.06 |",
+        "| worse | 1.5 ± 0.8 |",
+        "| better | **0.5 ± 0.006** |",
+    ]
+
+
+def test_runs_that_stop_are_counted() -> None:
+    found = rows(*[{"velocity": 0.01}] * 3)
+    found[1]["members"] = [*runs(0.01), {"errors": {}, "failure": "exit status 3: a particle left"}]
+    assert ablation.table([(CASE, found)]).splitlines()[3] == "| worse | 1 of 2 stop |"
 
 
 def test_the_table_marks_what_is_better_and_what_is_worse() -> None:
@@ -35,7 +59,7 @@ def test_of_several_times_the_worst_counts() -> None:
 
 def test_a_run_that_stops_and_a_change_that_a_case_lacks_are_told_apart() -> None:
     found = rows({"velocity": 0.01}, {}, {"velocity": 0.01})
-    found[1]["failure"] = "exit status 3: a particle left"
+    found[1]["members"][0]["failure"] = "exit status 3: a particle left"
     other = rows({"energy": 0.01}, {"energy": 0.01}, {"energy": 0.01})[:2]
     lines = ablation.table([(CASE, found), (CASE, other)]).splitlines()
     assert lines[3] == "| worse | stops | 1 |"

@@ -29,13 +29,15 @@ def variants(session: Session) -> list[dict[str, Any]]:
 
 def measure(session: Session) -> list[dict[str, Any]]:
     """A row for each case and change, the scheme as it is first; one thread. A change with which the solver
-    stops (exit status 3) is an answer as well.
+    stops (exit status 3) is an answer as well. `settings` of a case are those of all its runs.
     """
     jobs, names = [], []
-    for case in session.plan["ablation"]["cases"]:
+    for entry in session.plan["ablation"]["cases"]:
+        case, common = dict(entry), entry.get("settings", {})
+        case.pop("settings", None)
         changes = [v for v in variants(session) if case["case"] in v.get("cases", [case["case"]])]
         for change in [{"name": "default scheme", "set": {}}, *changes]:
-            settings = dict(change["set"])
+            settings = {**common, **change["set"]}
             choices = {"arithmetic": settings.pop(ARITHMETIC, session.arithmetic())}
             choices |= {"settings": settings, "may_stop": bool(change["set"])}
             jobs.append(session.job(**case, **choices))
