@@ -72,8 +72,8 @@ claims: setup ## Write verification/claims.md, the ledger of the paper's claims,
 baseline: setup ## Accept the last results as verification/baseline.json, for review in a commit
 	@$(PYTHON) -m verification.baseline --accept
 
-bench: build ## Speed against error and the speed targets (build/bench); leave the machine alone meanwhile
-	@$(PYTHON) -m verification.bench
+bench: build ## Speed against error and the speed targets (build/bench, speed.md); leave the machine alone meanwhile
+	@$(PYTHON) -m verification.bench --page verification/speed.md
 
 bench-peers: build ## PySPH (installed when missing) on flows of ours beside our solver, into the report of bench
 	@scripts/setup python3-pysph

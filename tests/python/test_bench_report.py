@@ -56,6 +56,22 @@ def results(**changes):
     return content | changes
 
 
+def test_a_page_gets_the_targets_and_the_points_of_one_thread(tmp_path):
+    page = tmp_path / "speed.md"
+    parts = "<!-- targets:begin -->\n<!-- targets:end -->\nkept\n<!-- points:begin -->\n<!-- points:end -->\n"
+    page.write_text(parts)
+    found = results()
+    report.write(tmp_path, found)
+    report.write_page(page, found)
+    text = page.read_text()
+    assert "p, 2 cores, now: 13 targets met, 0 missed, 0 skipped." in text
+    assert text.count("| taylor_green, re_100 |") == 4
+    assert "\nkept\n" in text
+    page.write_text("no markers")
+    with pytest.raises(ValueError, match="targets:begin"):
+        report.write_page(page, found)
+
+
 def test_the_report_has_targets_figures_and_notes(tmp_path, capsys):
     report.write(tmp_path, results())
     text = (tmp_path / "report.md").read_text()

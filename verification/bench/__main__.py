@@ -36,6 +36,7 @@ SECTIONS: dict[str, Callable[[Session], Any]] = {
 def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     options = parser("python -m verification.bench", __doc__)
     options.add_argument("--only", action="append", choices=SECTIONS, help="only this section (repeatable)")
+    options.add_argument("--page", type=Path, help="a page with the markers of targets and points to fill")
     options.add_argument("--report-only", action="store_true", help="the report again, from the last results")
     return options.parse_args(argv)
 
@@ -45,21 +46,23 @@ def main(argv: Sequence[str] | None = None, load: LoadReference = load_reference
     stored = options.out / report.RESULTS
     try:
         if options.report_only:
-            return finish(options.out, json.loads(stored.read_text()))
+            return finish(options, json.loads(stored.read_text()))
         session = Session(options.solver, options.out, load_plan(options.quick), References(load))
         stored.unlink(missing_ok=True)  # an interrupted bench leaves none
     except (CaseError, OSError, json.JSONDecodeError) as error:
         print(f"bench: {error}", file=sys.stderr)
         return 2
-    return finish(options.out, measure(session, options))
+    return finish(options, measure(session, options))
 
 
-def finish(out: Path, results: dict[str, Any]) -> int:
-    report.write(out, results)
+def finish(options: argparse.Namespace, results: dict[str, Any]) -> int:
+    report.write(options.out, results)
+    if options.page:
+        report.write_page(options.page, results)
     report.print_targets(results)
     for failure in results["failures"]:
         print(f"FAILED: {failure}")
-    print(out / "report.html")
+    print(options.out / "report.html")
     return 1 if results["failures"] else 0
 
 

@@ -19,11 +19,13 @@ from verification.bench.files import write_figure, write_json, write_whole
 from verification.bench.plan import load_plan
 from verification.bench.verdicts import MET, MISSED, SKIPPED, verdicts
 from verification.figures import STYLE
+from verification.markers import replace_between
 from verification.page import Block, Picture, Table, to_html, to_markdown
 
 RESULTS = "speed_error.json"
 PEERS = "peers.json"
 HEADING = "Speed and error"
+PAGE_CASES = ("rough_channel", "taylor_green")  # whose points the page shows
 
 
 def write(out: Path, results: dict[str, Any]) -> None:
@@ -38,6 +40,19 @@ def write(out: Path, results: dict[str, Any]) -> None:
     passed = not results["failures"] and all(row["status"] == MET for row in results["targets"])
     write_whole(out / "report.md", to_markdown(title, content, out, HEADING))
     write_whole(out / "report.html", to_html(title, passed, content, HEADING))
+
+
+def write_page(page: Path, results: Mapping[str, Any]) -> None:
+    """Writes the parts of a page that the bench makes (see its markers): where it ran and the targets, and
+    the points of the flows without an exact answer in closed form. Raises ValueError without the markers.
+    """
+    where = (
+        f"{results['machine']['processor']}, {results['machine']['cores']} cores, {results['generated'][:10]}"
+    )
+    table = target_table(results).markdown()
+    replace_between(page, "targets", f"{where}: {headline(results)}.\n\n{table}")
+    points = [p for p in results.get("speed_error", []) if p["case"] in PAGE_CASES and p["threads"] == 1]
+    replace_between(page, "points", point_table(points).markdown())
 
 
 def headline(results: Mapping[str, Any]) -> str:
