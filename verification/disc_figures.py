@@ -150,12 +150,12 @@ def phase_times(data: Data) -> Figure:
         found.append(phases(times, leading, trailing, diameter))
     for index, phase in enumerate(PHASES):
         points = [(begun[phase], row) for row, begun in enumerate(found) if phase in begun]
-        style = {"color": COLOURS[index], "markersize": 8, "label": phase}
+        style = {"color": COLOURS[index], "markersize": 8, "label": phase, "fillstyle": "none"}
         axes.plot(*np.reshape(points, (-1, 2)).T, MARKERS[index], **style)
     labels = [variant.name.replace("_", " ") for variant in data.case.variants]
     axes.set_yticks(range(len(labels)), labels)
     axes.set(xlabel="time (s)")
-    axes.legend(loc="upper left")
+    figure.legend(loc="outside upper center", ncols=len(PHASES))
     return figure
 
 
