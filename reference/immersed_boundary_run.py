@@ -71,12 +71,12 @@ def prepared(problem: Problem, grid: Grid) -> Discs:
     return Discs(Flow(grid, problem.viscosity), problem.density, problem.discs, problem.gravity, contact)
 
 
-def steps_left(flow: Flow, speed: float, time: float, number: int) -> int:
-    """How many steps the time left (s) is worth; `speed` is the least scale, m/s, `number` the step's, from 1."""
+def steps_left(flow: Flow, speed: float, time: float, number: int, courant: float = COURANT) -> int:
+    """How many steps the time left (s) is worth; `speed` (m/s): the least scale; `number`: from 1 on."""
     spacing = min(flow.grid.spacing)
     fastest = max(speed, sum(float(np.abs(field).max()) for field in flow.velocity))
     slowest = flow.viscosity / (MOST_DIFFUSION * spacing**2)  # steps a second
-    rate = max(fastest / (COURANT * spacing), slowest)
+    rate = max(fastest / (courant * spacing), slowest)
     return math.ceil(time * max(rate, rate / FIRST_STEP / GROWTH**number))
 
 

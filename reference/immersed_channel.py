@@ -21,8 +21,15 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
-from reference import base, extrapolation, immersed_boundary_discs, immersed_boundary_flow
-from reference import immersed_boundary_run, immersed_channel_run, walls
+from reference import (
+    base,
+    extrapolation,
+    immersed_boundary_discs,
+    immersed_boundary_flow,
+    immersed_boundary_run,
+    immersed_channel_run,
+    walls,
+)
 from reference import scene as scenes
 from reference.base import Array, ReferenceError, cache_file, canonical, digest_of, read_arrays, write_arrays
 from reference.extrapolation import extrapolated
@@ -104,7 +111,7 @@ class ImmersedChannel:
         return float(np.interp(t, times, self.values["shear"], left=np.nan, right=np.nan))
 
     def disc(self, name: str, quantity: str, t: Array) -> Array:
-        """The disc's position (n, 2), m, or velocity (n, 2), m/s, at times t (n,), s; NaN outside of the run."""
+        """Position (n, 2), m, or velocity (n, 2), m/s, at times t (n,), s; NaN outside of the run."""
         if self.channel.disc is None or name != self.scene.discs[0].name or quantity not in GROUPS:
             known = f"{' and '.join(GROUPS)} of its one disc"
             raise self.scene.refuse(f"{NAME} knows {known}; not {quantity} of {name}")
@@ -118,7 +125,8 @@ class ImmersedChannel:
 
     def error_table(self) -> str:
         """The convergence of the grids, as text."""
-        rows = ["     cells  " + "".join(f"{name:>12}" for name in self.grids) + "  greatest shear"]
+        names = "".join(f"{name:>12}" for name in self.grids)
+        rows = [f"     cells  {names}  greatest shear"]
         for number, cells in enumerate(self.cells):
             line = [f"{cells[0]:5.0f} x{cells[1]:5.0f}"]
             for name, grids in self.grids.items():
@@ -128,7 +136,8 @@ class ImmersedChannel:
             rows.append("".join(line) + f"{shear.max():11.2f} Pa, at the end {shear[-1]:.2f} Pa")
         rows.append(f"{'order':>12}" + "".join(f"{order:12.1f}" for order in self.orders.values()))
         shear = self.values["shear"]
-        rows.append(f"extrapolated: {shear.max():.2f} Pa, at the end {shear[-1]:.2f} Pa; {self.seconds:.0f} s")
+        rows.append(f"extrapolated: {shear.max():.2f} Pa, at the end {shear[-1]:.2f} Pa")
+        rows.append(f"{self.seconds:.0f} s")
         if self.channel.disc:
             rows.append(f"least distance of the disc from a wall: {self.clearance:.3g} m")
         return "\n".join(rows)

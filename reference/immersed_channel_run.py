@@ -25,7 +25,8 @@ from reference.scene import Scene
 from reference.walls import Graph, graph
 
 RETRACTION = 0.3  # spacings
-GAP_CELLS, DISC_CELLS = 45, 15  # of the finest grid to the least gap and to the disc's diameter
+GAP_CELLS, DISC_CELLS = 30, 10  # of the finest grid to the least gap and to the disc's diameter
+COURANT = 0.25
 CURVE_POINTS = 20  # to a spacing, along the wall, where its length and its distance are measured
 
 
@@ -154,7 +155,7 @@ def run(channel: Channel, grid: Grid, times: Array) -> Passage:
             raise ReferenceError(f"channel on {grid.cells} cells: the run broke down at {now:.4g} s")
         if now >= end:
             break
-        left = steps_left(flow, abs(channel.speed), end - now, len(stamps))
+        left = steps_left(flow, abs(channel.speed), end - now, len(stamps), COURANT)
         step = (end - now) / left
         if discs:
             discs.step(step)

@@ -15,9 +15,7 @@ HEAD = (
     "# Wafer shear and disc by reference/immersed_channel.py; nothing published. Every grid, SI units.",
     "# Made by `python -m reference.immersed_channel`, whose docstring has the command.",
 )
-COLUMNS = (
-    "grid,time_s,greatest_wafer_shear_pa,x_m,y_m,angle_rad,velocity_x_m_s,velocity_y_m_s,spin_rad_s"
-)
+COLUMNS = "grid,time_s,greatest_wafer_shear_pa,x_m,y_m,angle_rad,velocity_x_m_s,velocity_y_m_s,spin_rad_s"
 
 
 @dataclass(frozen=True)

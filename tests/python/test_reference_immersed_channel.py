@@ -37,7 +37,7 @@ fluid_side = "above"
 end_time = {end}
 """
 FLAT = 'shape = "line"\nfrom = [1e-5, {height}]\nto = [5e-5, {height}]'
-BUMP = 'shape = "gaussian"\nbase_height = -1e-6\namplitude = 1.3e-5\ncentre = 2.9e-5\nwidth = 5e-6'
+BUMP = 'shape = "gaussian"\nbase_height = -1e-6\namplitude = 1.3e-5\ncentre = 3e-5\nwidth = 5e-6'
 DISC = """
 [[discs]]
 name = "grain"
@@ -66,21 +66,22 @@ def test_shear_over_a_bump_converges_to_the_finite_elements(tmp_path):
     steady = reference.load("channel_navier_stokes", bump.scene.path, {}, tmp_path)
     truth = np.abs(steady.wall_shear("wafer", np.linspace(1e-5, 5e-5, 400), 0.0)).max()
     errors = []
-    for cells in ((60, 30), (120, 60)):
-        found = run(bump, Grid(cells, bump.size, (True, False)), np.array([0.0, 2e-4]))
+    for cells in ((40, 20), (80, 40)):
+        found = run(bump, Grid(cells, bump.size, (True, False)), np.array([0.0, 1e-4]))
         errors.append(abs(found.shear[-1] / truth - 1))
-    assert errors[1] < 0.01
+    assert errors[1] < 0.02
     assert errors[1] < 0.6 * errors[0]
 
 
 def test_disc_of_the_fluids_density_goes_with_a_couette_flow(tmp_path):
-    """In the middle of two flat walls far from it: at half the speed, turning with half the shear rate."""
+    """Between two flat walls: at the speed of the flow where it is, turning with half the shear rate."""
     free = channel(tmp_path, FLAT.format(height=1e-6), extra=DISC, overrides={
         "discs.grain.position": [3e-5, 1e-5], "discs.grain.density": 1000.0})  # fmt: skip
-    found = run(free, Grid((80, 40), free.size, (True, False)), np.array([0.0, 3e-4]))
-    assert found.states[-1, 3] == pytest.approx(-0.5, rel=0.01)
+    found = run(free, Grid((80, 40), free.size, (True, False)), np.array([0.0, 2e-4]))
+    height = found.states[-1, 1] - 2e-6  # above the lower wall
+    assert found.states[-1, 3] == pytest.approx(-height / 1.8e-5, rel=0.01)
     assert found.states[-1, 5] == pytest.approx(0.5 / 1.8e-5, rel=0.06)
-    assert found.states[-1, 1] == pytest.approx(1.1e-5, abs=1e-7)
+    assert height == pytest.approx(9e-6, abs=5e-7)  # it drifts, the less the shorter the steps
 
 
 @pytest.fixture
@@ -96,12 +97,12 @@ def test_scenes_are_computed_kept_and_stored(tmp_path, coarse, monkeypatch):
     first = reference.load("immersed_channel", file, {}, cache)
     assert 0 < first.error_estimate < 0.2
     assert first.clearance > 1e-6
-    assert len(first.error_table().splitlines()) == 4 + len(SHARES)
+    assert len(first.error_table().splitlines()) == 5 + len(SHARES)
     place = first.disc("grain", "position", np.array([0.0, 6e-5, 7e-5]))
     assert_allclose(place[0], [4e-5, 1.5e-5])
     assert place[1, 0] < 3e-5
     assert np.isnan(place[2]).all()
-    assert first.since == pytest.approx(4.9e-5)
+    assert first.since == pytest.approx(4.9e-5, rel=1e-5)
     assert np.isnan([first.greatest_wafer_shear(t) for t in (4.8e-5, 6.1e-5)]).all()
     assert 100 < first.greatest_wafer_shear(5.5e-5) < 250
     with pytest.raises(ReferenceError, match="not spin of grain"):
@@ -147,7 +148,7 @@ def test_coarsest_stored_grid_is_found_again(tmp_path):
         ({"walls.pad.base_height": -2e-6}, "must lie in the domain"),
         ({"fluid.body_force": [1.0, 0.0]}, "body force"),
         ({"output.end_time": 4e-5}, "go on beyond 4.9e-05 s"),
-        ({"discs.grain.position": [2.9e-5, 1.35e-5], "output.end_time": 5.2e-5}, "of a wall"),
+        ({"discs.grain.position": [3e-5, 1.35e-5], "output.end_time": 5.2e-5}, "of a wall"),
     ],
 )
 def test_scenes_out_of_reach_are_refused(tmp_path, coarse, overrides, message):
