@@ -88,6 +88,7 @@ def test_disc_of_the_fluids_density_goes_with_a_couette_flow(tmp_path):
 def coarse(monkeypatch):
     monkeypatch.setattr(immersed_channel_run, "GAP_CELLS", 16)
     monkeypatch.setattr(immersed_channel_run, "DISC_CELLS", 5)
+    monkeypatch.setattr(immersed_channel_run, "COURANT", 1.0)
     monkeypatch.setattr(immersed_channel, "SAMPLES", 20)
 
 

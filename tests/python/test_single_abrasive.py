@@ -21,7 +21,6 @@ SCENE = CASE.scene(VARIANT)
 END = SCENE["output"]["end_time"]
 TIMES = np.linspace(0, END, 161)
 ALONG = np.linspace(1e-7, 3.99e-5, 200)
-STILL = 0.287  # kPa, about what it is without a disc
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +47,6 @@ def judged(result, truth):
     """For each check of the gate, whether its error is within its tolerance."""
     found = {}
     for check in CASE.checks("default", "gate", VARIANT.name):
-        assert check.reported
         value = error_of(check, result, truth)
         found[check.quantity] = CheckResult(check, value, check.tolerance).passed
     return found
