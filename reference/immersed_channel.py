@@ -8,7 +8,7 @@ immersed_channel_run.py (walls, samples). Fluid and disc start at rest.
 Own convergence: three grids, SHARES the shares of the finest's cells along an axis, extrapolated as in
 immersed_boundary.py. The error estimate is the largest change from the finest grid to the result: of the
 disc's place over its largest displacement, of its velocity over its largest speed, of the shear over its
-largest value. The shear counts, and is known, from `since` on, gap^2 / nu: a wafer that starts at once has an
+largest value. The shear counts, and is known, from Channel.since on: a wafer that starts at once has an
 infinite shear at that moment. A disc that comes within CONTACT_CELLS spacings of the coarsest grid of a wall
 is refused.
 """
@@ -53,7 +53,9 @@ GROUPS = {"position": slice(0, 2), "velocity": slice(3, 5)}
 
 
 def solve(channel: Channel, end: float) -> dict[str, Array]:
-    """Runs every grid, the coarsest first, to `end` (s)."""
+    """Runs every grid, the coarsest first, to `end` (s). Raises ReferenceError for an end before `since`."""
+    if end <= channel.since * (1 + 1 / SAMPLES):
+        raise channel.scene.refuse(f"{NAME}: the run has to go on beyond {channel.since:.3g} s")
     started = time.perf_counter()
     times = np.linspace(0, end, SAMPLES + 1)
     grids = [channel.grid(share) for share in SHARES]
@@ -76,7 +78,6 @@ class ImmersedChannel:
         self.channel, self.scene, self.digest = channel, scene, digest
         self.seconds, self.cells, self.times = float(arrays["seconds"]), arrays["cells"], arrays["times"]
         self.grids = {"shear": arrays["shear"]}
-        self.since = channel.gap**2 / scene.kinematic_viscosity
         if channel.disc:
             self.grids |= {name: arrays["states"][..., part] for name, part in GROUPS.items()}
             self.clearance = channel.clearance(self.grids["position"].reshape(-1, 2))
@@ -85,9 +86,7 @@ class ImmersedChannel:
                 near = f"{self.clearance:.3g} m of a wall, {coarsest:.3g} m are needed"
                 raise scene.refuse(f"{NAME}: the disc comes within {near}")
             self.grids["position"] = self.grids["position"] + np.array(scene.lower)
-        self.known = self.times >= self.since * (1 - 1e-9)
-        if np.count_nonzero(self.known) < 2:
-            raise scene.refuse(f"{NAME}: the run has to go on beyond {self.since:.3g} s")
+        self.known = self.times >= channel.since * (1 - 1e-9)
         self.values, self.errors, self.orders = {}, {}, {}
         for name, grids in self.grids.items():
             counts = self._counting(name, grids)

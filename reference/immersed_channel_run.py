@@ -44,6 +44,7 @@ class Channel:
         self.disc = self._disc()
         x, y = self.curve(4096)
         self.gap = float(self.size[1] - y.max())
+        self.since = self.gap**2 / scene.kinematic_viscosity  # s, when the start is felt across the gap
         if y.min() < 0 or self.gap <= 0 or self.speed == 0:
             raise scene.refuse("the lower wall must lie in the domain, the upper one must move along itself")
 
