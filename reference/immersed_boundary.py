@@ -36,11 +36,11 @@ from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
-from scipy.optimize import brentq
 
 from reference import base, immersed_boundary_discs, immersed_boundary_flow, immersed_boundary_run
 from reference import scene as scenes
 from reference.base import Array, ReferenceError, cache_file, digest_of, read_arrays, write_arrays
+from reference.extrapolation import extrapolated
 from reference.immersed_boundary_discs import Contact, Disc
 from reference.immersed_boundary_run import Problem, run
 from reference.immersed_boundary_store import read_stored, write_stored
@@ -142,8 +142,9 @@ class ImmersedBoundary:
         self.until = float(self.times[before][-1])
         self.extrapolated = np.full_like(self.states[-1], np.nan)
         self.errors, self.orders = {}, {}
+        spacings = self.cells[-1, 0] / self.cells[:, 0]
         for name, part in GROUPS.items():
-            values, self.orders[name], error = self._extrapolated(self.states[:, before][..., part])
+            values, self.orders[name], error = extrapolated(self.states[:, before][..., part], spacings)
             self.extrapolated[before, :, part] = values
             self.errors[name] = error / self._scale(name)
         self.error_estimate = max(self.errors.values())
@@ -156,19 +157,6 @@ class ImmersedBoundary:
             if any(contact.forces(states[number] - self.shift).any() for states in self.states):
                 return float(time_now)
         return math.inf
-
-    def _extrapolated(self, grids: Array) -> tuple[Array, float, float]:
-        """Values at spacing zero, order, largest change to the finest, of (grids, times, discs, parts)."""
-        spacings = self.cells[-1, 0] / self.cells[:, 0]
-        sizes = [float(np.abs(change).max()) for change in np.diff(grids, axis=0)]
-
-        def excess(order: float) -> float:
-            coarse, fine = -np.diff(spacings**order)
-            return sizes[0] * fine - sizes[1] * coarse
-
-        order = 1.0 if excess(1) <= 0 else 2.0 if excess(2) >= 0 else brentq(excess, 1, 2)
-        correction = (grids[-1] - grids[-2]) / (spacings[-2] ** order - 1)
-        return grids[-1] + correction, order, float(np.abs(correction).max())
 
     def _scale(self, group: str) -> float:
         """What an error of the group is divided by."""

@@ -54,30 +54,20 @@ def delta(distance: Array) -> Array:
     return np.where(r <= 0.5, near, np.where(r < 1.5, far, 0.0))
 
 
-class Markers:
-    """The markers of all discs at one place: interpolation from the grid to them and spreading back."""
+class Points:
+    """Points of the fluid, each with a force over an area: interpolation from the grid and spreading back."""
 
-    def __init__(self, grid: Grid, discs: tuple[Disc, ...], place: Array):
-        self.grid, self.count = grid, len(discs)
-        spacing = math.sqrt(grid.spacing[0] * grid.spacing[1])
-        arms, owners, areas = [], [], []
-        for number, disc in enumerate(discs):
-            radius = disc.radius - RETRACTION * spacing
-            count = 4 * math.ceil(0.5 * math.pi * radius / spacing)  # symmetric about both axes
-            angle = 2 * math.pi * np.arange(count) / count + place[number, 2]
-            arms.append(radius * np.column_stack((np.cos(angle), np.sin(angle))))
-            owners.append(np.full(count, number))
-            areas.append(np.full(count, 2 * math.pi * radius / count * spacing))
-        self.arms, self.owners, self.areas = np.vstack(arms), np.concatenate(owners), np.concatenate(areas)
-        points = place[self.owners, :2] + self.arms
-        self._stencils = [self._stencil(points, component) for component in range(2)]
+    def __init__(self, grid: Grid, places: Array, areas: Array):
+        """places (points, 2), m; areas (points,), m2."""
+        self.grid, self.places, self.areas = grid, places, areas
+        self._stencils = [self._stencil(component) for component in range(2)]
 
-    def _stencil(self, points: Array, component: int) -> tuple[Array, Array]:
-        """Flat indices and weights (markers, 9); values on and beyond walls are zero and left out."""
+    def _stencil(self, component: int) -> tuple[Array, Array]:
+        """Flat indices and weights (points, 9); values on and beyond walls are zero and left out."""
         grid, shape = self.grid, self.grid.shape(component)
         indices, weights = [], []
         for axis in range(2):
-            at = points[:, axis] / grid.spacing[axis] - grid.origin(component)[axis]
+            at = self.places[:, axis] / grid.spacing[axis] - grid.origin(component)[axis]
             index = np.rint(at).astype(int)[:, None] + np.arange(-1, 2)
             weight = delta(index - at[:, None])
             if grid.periodic[axis]:
@@ -89,20 +79,38 @@ class Markers:
             weights.append(weight)
         flat = indices[0][:, :, None] * shape[1] + indices[1][:, None, :]
         weight = weights[0][:, :, None] * weights[1][:, None, :]
-        return flat.reshape(len(points), 9), weight.reshape(len(points), 9)
+        return flat.reshape(len(self.places), 9), weight.reshape(len(self.places), 9)
 
     def interpolated(self, velocity: list[Array]) -> Array:
-        """The fluid's velocity at the markers (markers, 2)."""
+        """The fluid's velocity at the points (points, 2)."""
         pairs = zip(velocity, self._stencils, strict=True)
         return np.column_stack([(weight * field.ravel()[flat]).sum(1) for field, (flat, weight) in pairs])
 
     def spread(self, values: Array, fields: list[Array]) -> None:
-        """Adds to a vector field the values at the markers (markers, 2), each over its area."""
+        """Adds to a vector field the values at the points (points, 2), each over its area."""
         cell = self.grid.spacing[0] * self.grid.spacing[1]
         for axis, (flat, weight) in enumerate(self._stencils):
             amount = weight * (values[:, axis] * self.areas / cell)[:, None]
             added = np.bincount(flat.ravel(), amount.ravel(), fields[axis].size)
             fields[axis] += added.reshape(fields[axis].shape)
+
+
+class Markers(Points):
+    """The markers of all discs at one place."""
+
+    def __init__(self, grid: Grid, discs: tuple[Disc, ...], place: Array):
+        self.count = len(discs)
+        spacing = math.sqrt(grid.spacing[0] * grid.spacing[1])
+        arms, owners, areas = [], [], []
+        for number, disc in enumerate(discs):
+            radius = disc.radius - RETRACTION * spacing
+            count = 4 * math.ceil(0.5 * math.pi * radius / spacing)  # symmetric about both axes
+            angle = 2 * math.pi * np.arange(count) / count + place[number, 2]
+            arms.append(radius * np.column_stack((np.cos(angle), np.sin(angle))))
+            owners.append(np.full(count, number))
+            areas.append(np.full(count, 2 * math.pi * radius / count * spacing))
+        self.arms, self.owners = np.vstack(arms), np.concatenate(owners)
+        super().__init__(grid, place[self.owners, :2] + self.arms, np.concatenate(areas))
 
     def rigid(self, velocity: Array) -> Array:
         """The discs' velocities (discs, 3) at the markers."""

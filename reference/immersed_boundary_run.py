@@ -71,6 +71,15 @@ def prepared(problem: Problem, grid: Grid) -> Discs:
     return Discs(Flow(grid, problem.viscosity), problem.density, problem.discs, problem.gravity, contact)
 
 
+def steps_left(flow: Flow, speed: float, time: float, number: int, courant: float = COURANT) -> int:
+    """How many steps the time left (s) is worth; `speed` (m/s): the least scale; `number`: from 1 on."""
+    spacing = min(flow.grid.spacing)
+    fastest = max(speed, sum(float(np.abs(field).max()) for field in flow.velocity))
+    slowest = flow.viscosity / (MOST_DIFFUSION * spacing**2)  # steps a second
+    rate = max(fastest / (courant * spacing), slowest)
+    return math.ceil(time * max(rate, rate / FIRST_STEP / GROWTH**number))
+
+
 def run(problem: Problem, grid: Grid, times: Array) -> tuple[Array, float]:
     """Moves the discs from time 0 = times[0] to times[-1] (s).
 
@@ -78,13 +87,9 @@ def run(problem: Problem, grid: Grid, times: Array) -> tuple[Array, float]:
     acted (s), infinite if never. Raises ReferenceError when the run breaks down.
     """
     discs, speed, end = prepared(problem, grid), problem.speed(), float(times[-1])
-    spacing = min(grid.spacing)
-    slowest = problem.viscosity / (MOST_DIFFUSION * spacing**2)  # steps a second
     now, stamps, states, touched = 0.0, [0.0], [np.hstack((discs.place, discs.velocity))], math.inf
     while now < end:
-        fastest = max(speed, sum(float(np.abs(field).max()) for field in discs.flow.velocity))
-        rate = max(fastest / (COURANT * spacing), slowest)
-        left = math.ceil((end - now) * max(rate, rate / FIRST_STEP / GROWTH ** len(stamps)))
+        left = steps_left(discs.flow, speed, end - now, len(stamps))
         discs.step((end - now) / left)
         now = end if left == 1 else now + (end - now) / left
         stamps.append(now)

@@ -1,4 +1,4 @@
-"""Quantities over time that no dataset of a result holds: of discs, or of discs and fluid together.
+"""Quantities over time that no dataset of a result holds: of discs, with the fluid or alone, or of a wall.
 
 Each takes a Result and returns times (n,) and values, or raises DataError.
 """
@@ -84,11 +84,18 @@ def array_balance(result: Result) -> Series:
     return times, (measured + force * own) / (force * area)
 
 
+def greatest_wafer_shear(result: Result) -> Series:
+    """The greatest |shear| along the wafer (n,), Pa, at every sample of the probe "wafer"."""
+    times, _, shear = result.wall_samples("wafer", "shear")
+    return times, np.abs(shear).max(axis=1)
+
+
 DERIVED: dict[str, Callable[[Result], Series]] = {
     "momentum": momentum,
     "gap": gap,
     "phases_missing": phases_missing,
     "array_drag": array_drag,
     "array_balance": array_balance,
+    "greatest_wafer_shear": greatest_wafer_shear,
     **BUDGETS,
 }

@@ -14,7 +14,7 @@ from verification import curves
 from verification.case import curves as read_curves
 from verification.compare import DataError
 from verification.derived import DERIVED
-from verification.figures import COLOURS, MARKERS, Data
+from verification.figures import COLOURS, MARKERS, MICRO, Data
 from verification.phases import PHASES, phases
 from verification.picture import draw, limit_of
 from verification.truth import of_disc
@@ -159,6 +159,30 @@ def phase_times(data: Data) -> Figure:
     return figure
 
 
+def passage(data: Data) -> Figure:
+    """A disc carried through a gap: the greatest wafer shear over time and the path, and the reference's."""
+    variant = data.case.variants[0]
+    reference, disc = data.reference(variant), data.case.scene(variant)["discs"][0]["name"]
+    figure = Figure(figsize=(11, 4), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    for (spacing, result), colour in zip(data.results(variant), COLOURS, strict=False):
+        label = f"SPH, spacing {MICRO * spacing:.3g} µm"
+        times, shear = DERIVED["greatest_wafer_shear"](result)
+        left.plot(MICRO * times, shear, color=colour, label=label)
+        right.plot(*(MICRO * result.disc(disc, "position")[1].T), color=colour, label=label)
+    label = "immersed boundaries"
+    truth = np.array([reference.greatest_wafer_shear(time) for time in times])
+    left.plot(MICRO * times, truth, "k--", label=label)
+    right.plot(*(MICRO * reference.disc(disc, "position", times).T), "k--", label=label)
+    spread = np.nanmax(truth) - np.nanmin(truth)
+    left.set(xlabel="time (µs)", ylabel="greatest wafer shear (Pa)")
+    left.set_ylim(np.nanmin(truth) - spread, np.nanmax(truth) + spread)  # the start goes to infinity
+    right.set(xlabel="x of the disc (µm)", ylabel="y of the disc (µm)")
+    for axes in (left, right):
+        axes.legend(fontsize=8)
+    return figure
+
+
 FIGURES: dict[str, Callable[[Data], Figure]] = {
     "momentum": momentum,
     "drag": drag,
@@ -168,6 +192,7 @@ FIGURES: dict[str, Callable[[Data], Figure]] = {
     "velocities": panels("velocities"),
     "snapshots": snapshots,
     "phases": phase_times,
+    "passage": passage,
 }
 CAPTIONS = {
     "momentum": "Momentum of fluid, discs and both.",
@@ -178,4 +203,5 @@ CAPTIONS = {
     "positions": "Positions of both discs against the published curves (Fig. 10).",
     "velocities": "Velocities of both discs against the published curves (Fig. 11).",
     "phases": "When drafting, kissing, tumbling and separation begin.",
+    "passage": "Greatest wafer shear while a disc is carried through the gap, and its path.",
 }

@@ -151,15 +151,22 @@ class Result:
             x = require_series(f"x of probe {probe}", _dataset(group, "x"))
             return WallSample(float(times[-1]), x, pressure[-1], shear[-1])
 
-    def wall_history(self, probe: str, field: str, x: float) -> tuple[Array, Array]:
-        """Times and a field of a wall probe at x (m, at time 0), linear between the probe's points."""
+    def wall_samples(self, probe: str, field: str) -> tuple[Array, Array, Array]:
+        """Times (t,), x (n,) in m at time 0, and a field (t, n) of a wall probe."""
         with self._open() as file:
             group = _group(file, f"probes/{probe}")
             times, along = _dataset(group, "time"), require_series("x", _dataset(group, "x"))
             values = require_series(f"{field} of probe {probe}", _dataset(group, field), times)
-        if values.shape[1:] != along.shape or not along[0] <= x <= along[-1] or np.any(np.diff(along) <= 0):
-            raise DataError(f"probe {probe} does not reach to x = {x:g} m")
+        if values.shape[1:] != along.shape or np.any(np.diff(along) <= 0):
+            raise DataError(f"probe {probe} has not one {field} for each x")
         self._near(times[-1], self.end_time, f"the last sample of probe {probe}")
+        return times, along, values
+
+    def wall_history(self, probe: str, field: str, x: float) -> tuple[Array, Array]:
+        """Times and a field of a wall probe at x (m, at time 0), linear between the probe's points."""
+        times, along, values = self.wall_samples(probe, field)
+        if not along[0] <= x <= along[-1]:
+            raise DataError(f"probe {probe} does not reach to x = {x:g} m")
         return times, np.array([np.interp(x, along, row) for row in values])
 
     def point(self, probe: str, field: str) -> tuple[Array, Array]:

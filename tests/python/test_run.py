@@ -25,6 +25,7 @@ POLISHING = (
     "gaussian_asperity",
     "rough_pad",
     "rough_pad_profile",
+    "single_abrasive",
     "wafer_feature",
 )
 SWEEPS = ("abrasives", "gaussian_asperity")  # of which the gate runs some points only
