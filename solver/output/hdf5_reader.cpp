@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -34,10 +35,16 @@ bool Hdf5Reader::has(const std::string& path) const {
 }
 
 Hdf5Handle Hdf5Reader::open_attribute(const std::string& object, const std::string& name) const {
-    return require(
+    const std::string part = fmt::format("{} of {}", name, object);
+    Hdf5Handle attribute = require(
         Hdf5Handle(H5Aopen_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                    H5Aclose),
-        fmt::format("{} of {}", name, object));
+        part);
+    // HDF5 writes as many values as there are, wherever they go.
+    const Hdf5Handle space = require(Hdf5Handle(H5Aget_space(attribute.get()), H5Sclose), part);
+    if (const hssize_t points = H5Sget_simple_extent_npoints(space.get()); points != 1)
+        throw ReadError(fmt::format("{}: found {} values in {}, not one", name_, points, part));
+    return attribute;
 }
 
 double Hdf5Reader::number(const std::string& object, const std::string& name) const {
@@ -81,6 +88,13 @@ StoredTable Hdf5Reader::table(const std::string& path) const {
     const int rank = H5Sget_simple_extent_ndims(space.get());
     if (rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space.get(), sizes.data(), nullptr) < 0) {
         throw ReadError(fmt::format("{}: {} is not a table of numbers", name_, path));
+    }
+    // Each number of a result takes more than a byte of the file: a larger table would be one of nothing.
+    hsize_t bytes = 0;
+    require(H5Fget_filesize(file_.get(), &bytes), path);
+    if (sizes[0] > bytes || sizes[1] > bytes / std::max<hsize_t>(sizes[0], 1)) {
+        throw ReadError(fmt::format("{}: {} of {} x {} numbers is larger than the file", name_, path,
+                                    sizes[0], sizes[1]));
     }
     StoredTable table{sizes[0], sizes[1], std::vector<double>(sizes[0] * sizes[1])};
     require(H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.values.data()),

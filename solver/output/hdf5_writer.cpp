@@ -201,7 +201,7 @@ void Hdf5Writer::adopt_table(const std::string& path) {
     Sizes row(static_cast<std::size_t>(require(H5Sget_simple_extent_ndims(space.get()))));
     Sizes largest(row.size());
     require(H5Sget_simple_extent_dims(space.get(), row.data(), largest.data()));
-    if (largest.front() != H5S_UNLIMITED)
+    if (row.empty() || largest.front() != H5S_UNLIMITED)
         return;
     const hsize_t rows = std::exchange(row.front(), 1);
     Hdf5Handle dataset = require(Hdf5Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose));

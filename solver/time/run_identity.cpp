@@ -1,6 +1,7 @@
 #include "solver/time/run_identity.hpp"
 
 #include "solver/loop/pack.hpp"
+#include "solver/scene/refusal.hpp"
 
 #include <fmt/format.h>
 #include <version.hpp>
@@ -17,19 +18,19 @@ namespace {
 using Values = std::map<std::string, std::string>;
 
 // A resolved scene by keys, "walls.pad.velocity": the name is the first key of a table that there are several
-// of.
+// of. Any text will do: that of a checkpoint may be damaged.
 Values values_of(const std::string& resolved) {
     Values values;
     std::istringstream stream(resolved);
     std::string table;
     for (std::string line; std::getline(stream, line);) {
         if (line.starts_with("[")) {
-            table = line.substr(line.find_first_not_of('['));
-            table.erase(table.find(']'));
+            const std::size_t begin = std::min(line.find_first_not_of('['), line.size());
+            table = line.substr(begin, line.find(']') - begin);
         } else if (const auto equals = line.find(" = "); equals != std::string::npos) {
             const std::string key = line.substr(0, equals);
             const std::string value = line.substr(equals + 3);
-            if (key == "name") {
+            if (key == "name" && value.size() > 1) {
                 table += fmt::format(".{}", value.substr(1, value.size() - 2));
             }
             values[fmt::format("{}.{}", table, key)] = value;
@@ -43,10 +44,10 @@ std::string scene_difference(const Values& there, const Values& here) {
     for (const auto& [key, value] : there) {
         const auto found = here.find(key);
         if (found == here.end()) {
-            return fmt::format("{} = {}, here it is not", key, value);
+            return fmt::format("{} = {}, here it is not", printable(key), printable(value));
         }
         if (found->second != value) {
-            return fmt::format("{} = {}, here {}", key, value, found->second);
+            return fmt::format("{} = {}, here {}", key, printable(value), found->second);
         }
     }
     const auto added =
@@ -90,13 +91,13 @@ RunIdentity run_identity(const Scene& scene) {
 
 std::string difference(const RunIdentity& there, const RunIdentity& here) {
     if (there.version != here.version) {
-        return fmt::format("slurry {}, here {}", there.version, here.version);
+        return fmt::format("slurry {}, here {}", printable(there.version), here.version);
     }
     if (std::string found = scene_difference(values_of(there.scene), values_of(here.scene)); !found.empty()) {
         return found;
     }
     if (there.arithmetic != here.arithmetic) {
-        return fmt::format("arithmetic of {}, here {}", there.arithmetic, here.arithmetic);
+        return fmt::format("arithmetic of {}, here {}", printable(there.arithmetic), here.arithmetic);
     }
     return there.files == here.files ? "" : "other numbers in the CSV files that the scene names";
 }

@@ -1,4 +1,5 @@
 // What the fuzzers have kept, tried again: their findings stay mended without a fuzzer.
+#include "tests/fuzz/checkpoint_target.hpp"
 #include "tests/fuzz/scene_grammar.hpp"
 #include "tests/fuzz/targets.hpp"
 
@@ -32,6 +33,23 @@ TEST(Corpus, ScenesAreReadOrRefused) {
 
 TEST(Corpus, ProfilesAreReadOrRefused) {
     replay("profile", try_profile);
+}
+
+TEST(Corpus, CheckpointsAreReadOrRefused) {
+    CheckpointTarget target;
+    replay("checkpoint", [&](std::string_view input) { target(input); });
+}
+
+TEST(Corpus, ChangedCheckpointsAreReadOrRefused) {
+    CheckpointTarget target;
+    RandomSource random(1);
+    for (int k = 0; k < 300; ++k) {
+        std::string input(1 + random.below(40), '\0');
+        for (char& byte : input) {
+            byte = static_cast<char>(random.below(256));
+        }
+        ASSERT_NO_THROW(target(input)) << k;
+    }
 }
 
 TEST(Corpus, ChangedScenesAreReadOrRefused) {

@@ -4,7 +4,7 @@
 //
 // A further reader of files is tried the same way: a function here, a file fuzz_<what>.cpp with
 // LLVMFuzzerTestOneInput, a folder corpus/<what>, and its name in FUZZERS of tests/fuzz/CMakeLists.txt and in
-// corpus_test.cpp. A reader that wants a file gets one written to memory (memfd_create and /proc/self/fd).
+// corpus_test.cpp; the reader of checkpoints, which wants a file, is in checkpoint_target.hpp.
 #include <string>
 #include <string_view>
 

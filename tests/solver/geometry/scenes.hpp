@@ -20,6 +20,7 @@ inline WallScene make_wall(const std::string& name, const Shape& shape, FluidSid
 
 inline Scene make_scene(const Domain& domain, const std::vector<WallScene>& walls, double spacing) {
     Scene scene;
+    scene.numerics.kernel = KernelShape::quintic; // which every build has
     scene.domain = domain;
     scene.walls = walls;
     scene.numerics.particle_spacing = spacing;

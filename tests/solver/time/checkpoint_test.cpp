@@ -132,6 +132,18 @@ TEST_F(Checkpoint, OfAnotherRunIsRefusedWithTheDifference) {
     expect([&](RunIdentity& here) { here.scene += "\n[[discs]]\nname = \"grain\"\n"; }, "discs.grain");
 }
 
+TEST_F(Checkpoint, WhateverItsSceneIsTheDifferenceIsNamedInOneLine) {
+    const RunIdentity here = run_identity(channel_with_discs());
+    for (const char* scene :
+         {"", "[", "[[", "]", "[a", "name = ", "name = \"", "[walls]\nname = \"\x1b\r\""}) {
+        RunIdentity there = here;
+        there.scene = scene;
+        const std::string found = difference(there, here);
+        EXPECT_FALSE(found.empty()) << scene;
+        EXPECT_EQ(found.find_first_of("\r\n\x1b"), std::string::npos) << found;
+    }
+}
+
 TEST_F(Checkpoint, OfAnIntervalOfItsOwnIsTaken) {
     const RunIdentity identity = run_identity(channel_with_discs());
     RunIdentity here = identity;

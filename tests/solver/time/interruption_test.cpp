@@ -10,14 +10,18 @@ namespace {
 
 TEST(Interruption, NotesASignalInsteadOfEndingTheProcess) {
     for (const int signal : {SIGTERM, SIGINT}) {
+        std::signal(signal, SIG_DFL); // a shell's background job ignores SIGINT from the start
         const Interruption interruption;
         EXPECT_EQ(Interruption::signal_name(), nullptr);
         std::raise(signal);
+        ASSERT_NE(Interruption::signal_name(), nullptr);
         EXPECT_EQ(std::string_view(Interruption::signal_name()), signal == SIGTERM ? "SIGTERM" : "SIGINT");
     }
 }
 
 TEST(Interruption, EndsTheProcessAtTheSecondOneAndWhenItIsGone) {
+    std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGINT, SIG_DFL);
     EXPECT_EXIT(
         {
             const Interruption interruption;
