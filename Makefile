@@ -92,7 +92,7 @@ sanitize: setup ## Unit tests and short scenes under the address, undefined-beha
 	@env -u MAKEFLAGS -u MFLAGS scripts/sanitize $(JOBS)
 
 RUNS ?= 1000000
-fuzz: setup ## RUNS executions of each fuzzer (clang's libFuzzer) on the readers of scenes and CSV files
+fuzz: setup ## RUNS executions of each fuzzer (clang's libFuzzer) on the readers of scenes, CSV files and checkpoints
 	@env -u MAKEFLAGS -u MFLAGS scripts/fuzz $(JOBS) $(RUNS)
 
 FLOWS ?= 1000
