@@ -24,7 +24,7 @@ from verification import run
 from verification.case import ROOT
 
 REPOSITORY = ROOT.parent
-SOURCES = ("CMakeLists.txt", "solver", "tests/solver", "benchmarks", "cmake")
+SOURCES = ("CMakeLists.txt", "solver", "tests/solver", "tests/fuzz", "benchmarks", "cmake")
 
 
 class FaultError(Exception):

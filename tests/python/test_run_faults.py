@@ -1,3 +1,4 @@
+import re
 import shutil
 import sys
 
@@ -146,3 +147,10 @@ def test_the_command_counts(solver, tmp_path, capsys):
 def test_the_faults_of_the_repository_can_be_read():
     names = [fault.name for fault in faults.load(faults.ROOT / "faults.toml")]
     assert len(names) == len(set(names)) >= 6
+
+
+def test_a_copy_has_every_folder_that_the_build_reads() -> None:
+    lists = (faults.REPOSITORY / "CMakeLists.txt").read_text()
+    read = set(re.findall(r"\b((?:tests/)?[a-z]+)/[\w*/]*\.(?:cpp|hpp|cmake)", lists))
+    assert {"solver", "tests/solver", "tests/fuzz"} <= read
+    assert read - {"generated"} <= set(faults.SOURCES)  # generated: in the build folder
