@@ -15,9 +15,16 @@ from verification.measure import Result
 
 FLOWS = ("couette", "poiseuille", "rough_channel", "taylor_green")  # what the fake solver can do
 DISCS = (
-    "disc_added_mass", "disc_array_drag", "disc_conservation", "disc_flight", "disc_pair", "disc_pair_ensemble",
-    "disc_rotating", "disc_settling", "disc_still",
-)  # fmt: skip
+    "disc_added_mass",
+    "disc_array_drag",
+    "disc_conservation",
+    "disc_flight",
+    "disc_pair",
+    "disc_pair_ensemble",
+    "disc_rotating",
+    "disc_settling",
+    "disc_still",
+)
 
 POLISHING = (
     "abrasive_free",
