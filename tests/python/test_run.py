@@ -35,7 +35,7 @@ POLISHING = (
     "single_abrasive",
     "wafer_feature",
 )
-SWEEPS = ("abrasives", "gaussian_asperity")  # of which the gate runs some points only
+SWEEPS = ("abrasives", "disc_added_mass", "gaussian_asperity")  # of which the gate runs some points only
 
 
 @pytest.fixture
