@@ -33,8 +33,8 @@ def measure(session: Session) -> list[dict[str, Any]]:
     """
     jobs, names = [], []
     for entry in session.plan["ablation"]["cases"]:
-        case, common = dict(entry), entry.get("settings", {})
-        case.pop("settings", None)
+        case = dict(entry)
+        common = case.pop("settings", {})
         changes = [v for v in variants(session) if case["case"] in v.get("cases", [case["case"]])]
         for change in [{"name": "default scheme", "set": {}}, *changes]:
             settings = {**common, **change["set"]}

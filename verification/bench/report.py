@@ -44,7 +44,7 @@ def write(out: Path, results: dict[str, Any]) -> None:
 
 def write_page(page: Path, results: Mapping[str, Any]) -> None:
     """Writes the parts of a page that the bench makes (see its markers): where it ran and the targets, and
-    the points of the flows without an exact answer in closed form. Raises ValueError without the markers.
+    the points of PAGE_CASES on one thread. Raises ValueError without the markers.
     """
     where = (
         f"{results['machine']['processor']}, {results['machine']['cores']} cores, {results['generated'][:10]}"
