@@ -84,7 +84,8 @@ template <class Real> class SweepTimer {
     }
 
     PairSweepTime time_forces() {
-        rows_.fill_forces(particles_);
+        rows_.fill_full_step(particles_);
+        rows_.fill_force_dummies(particles_);
         return time<ForceView, Acceleration>("forces", Forces{}, ForceCoefficients<Real>{1, 1, 1});
     }
 

@@ -36,7 +36,8 @@ class Interactions {
     virtual void compute_density_rate(Particles& particles) = 0;
     // m / rho, 1 / sum W (below Eq. 2.8) or m / rho0, as the scene says, into fluid.volume.
     virtual void compute_volumes(Particles& particles) = 0;
-    // Eqs. 2.16 and 2.17, into the dummies' velocity and pressure.
+    // Eqs. 2.16 and 2.17, into the dummies' velocity and pressure. The fluid has to stay as it is until the
+    // forces are computed, if they are next: both read the same rows.
     virtual void extrapolate_to_walls(Particles& particles) = 0;
     // Eqs. 2.15, 2.19 and 2.20 (without the body force), into fluid.acceleration and fluid.background; the
     // forces on the particles of discs (Eq. 2.23), into dummies.force and dummies.twist.

@@ -21,6 +21,7 @@
 #include "solver/terms/wall_fit.hpp"
 
 #include <type_traits>
+#include <utility>
 
 namespace slurry {
 
@@ -57,7 +58,10 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
           neighbourhood_(scene, Kernel::support, wall_support(scene), W, sizeof(Row<Real>)),
           rows_(scene, neighbourhood_.periodic()) {}
 
-    void refresh_neighbours(Particles& particles) override { neighbourhood_.refresh(particles); }
+    void refresh_neighbours(Particles& particles) override {
+        full_step_rows_ = false;
+        neighbourhood_.refresh(particles);
+    }
 
     [[nodiscard]] ListOrigin list_origin() const override { return neighbourhood_.origin(); }
 
@@ -66,6 +70,7 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     }
 
     void compute_density_rate(Particles& particles) override {
+        full_step_rows_ = false;
         rows_.fill_rate(particles);
         if (terms_.gradient_correction) {
             rate_with<CorrectedContinuity>(particles.fluid);
@@ -77,7 +82,10 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     void compute_volumes(Particles& particles) override {
         FluidParticles& fluid = particles.fluid;
         if (numerics_.particle_volume == ParticleVolume::constant) {
-            std::ranges::fill(fluid.volume, fluid.mass / fluid_.density);
+            const double volume = fluid.mass / fluid_.density;
+            if (fluid.volume.empty() || fluid.volume.front() != volume) { // once
+                std::ranges::fill(fluid.volume, volume);
+            }
             return;
         }
         if (numerics_.particle_volume == ParticleVolume::mass_over_density) {
@@ -89,6 +97,7 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
             }
             return;
         }
+        full_step_rows_ = false;
         rows_.fill_volume(particles, numerics_.particle_spacing);
         const VolumeCoefficients<Real> coefficients{make_pair<Kernel>(Real{0}, Real{0}).kernel};
         sweep<Real, W, Kernel, VolumeView, Volume>(
@@ -102,8 +111,10 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
         if (!terms_.walls) {
             return;
         }
+        rows_.fill_full_step(particles);
+        full_step_rows_ = true;
         if (numerics_.wall_extrapolation == WallExtrapolation::fit) {
-            rows_.fill_walls(particles);
+            rows_.fill_wall_dummies(particles);
             if (terms_.discs) {
                 sweep_walls<SpinningWallView>(Composition<VelocityFit, PressureFit>{}, particles);
             } else {
@@ -111,7 +122,7 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
             }
             return;
         }
-        rows_.fill_means(particles, fluid_.acceleration());
+        rows_.fill_mean_dummies(particles, fluid_.acceleration());
         sweep_walls<MeanView>(Composition<VelocityExtrapolation, PressureExtrapolation>{}, particles);
         DummyParticles& dummies = particles.dummies;
         for (std::size_t d = 0; d < dummies.size(); ++d) { // Eq. 2.16
@@ -121,7 +132,10 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     }
 
     void compute_forces(Particles& particles) override {
-        rows_.fill_forces(particles);
+        if (!std::exchange(full_step_rows_, false)) {
+            rows_.fill_full_step(particles);
+        }
+        rows_.fill_force_dummies(particles);
         if (terms_.density_weighted_pressure) {
             forces_from<PressureForce>(particles);
             react_to<PressureForce>(particles);
@@ -202,9 +216,9 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
         const Vector frame = *terms_.pressure_frame;
         const std::size_t end = std::min(first + static_cast<std::size_t>(W), fluid.size());
         for (std::size_t i = first; i < end; ++i) {
-            fluid.density_rate[i] += unit * ((fluid.velocity_x[i] + fluid.shift_x[i] - frame.x()) *
+            fluid.density_rate[i] += unit * ((fluid.velocity_x[i] + fluid.shift_x(i) - frame.x()) *
                                                  lane_of(result.gradient_x, i - first) +
-                                             (fluid.velocity_y[i] + fluid.shift_y[i] - frame.y()) *
+                                             (fluid.velocity_y[i] + fluid.shift_y(i) - frame.y()) *
                                                  lane_of(result.gradient_y, i - first));
         }
     }
@@ -278,6 +292,7 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     Units units_;
     Neighbourhood neighbourhood_;
     PassRows<Real> rows_;
+    bool full_step_rows_ = false; // the fluid's rows are those of the last extrapolation to walls
 };
 
 // As wide as the machine's vectors, or with plain numbers.

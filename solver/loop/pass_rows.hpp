@@ -30,104 +30,88 @@ template <class Real> class PassRows {
     [[nodiscard]] std::span<const Row<Real>> rows() const { return rows_; }
     [[nodiscard]] std::size_t bytes() const { return rows_.capacity() * sizeof(Row<Real>); }
 
-    // For RateView.
+    // Fluid and dummies, for RateView.
     void fill_rate(const Particles& particles) {
         const FluidParticles& fluid = particles.fluid;
         const DummyParticles& dummies = particles.dummies;
         const double mass = fluid.mass / units_.mass();
         const double per_density = 1 / units_.density;
-        fill(
-            particles,
-            [&](std::size_t i) {
-                const double density = fluid.density[i] * per_density;
-                const double volume = mass / density;
-                return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
-                           velocity(fluid.velocity_y[i]), volume, density, volume, 0);
-            },
-            [&](std::size_t d) {
-                const Vector moving = continuity_velocity(dummies, d);
-                return row(x(dummies.x[d]), y(dummies.y[d]), velocity(moving.x()), velocity(moving.y()),
-                           volume(dummies.volume[d]), 1 + pressure(dummies.pressure[d]), 0, 0);
-            });
+        fill_fluid(particles, [&](std::size_t i) {
+            const double density = fluid.density[i] * per_density;
+            const double volume = mass / density;
+            return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
+                       velocity(fluid.velocity_y[i]), volume, density, volume, 0);
+        });
+        fill_dummies(particles, [&](std::size_t d) {
+            const Vector moving = continuity_velocity(dummies, d);
+            return row(x(dummies.x[d]), y(dummies.y[d]), velocity(moving.x()), velocity(moving.y()),
+                       volume(dummies.volume[d]), 1 + pressure(dummies.pressure[d]), 0, 0);
+        });
     }
 
-    // For VolumeView.
+    // Fluid and dummies, for VolumeView.
     void fill_volume(const Particles& particles, double particle_spacing) {
         const FluidParticles& fluid = particles.fluid;
         const DummyParticles& dummies = particles.dummies;
         const double cell = particle_spacing * particle_spacing;
-        fill(
-            particles, [&](std::size_t i) { return row(x(fluid.x[i]), y(fluid.y[i]), 1, 0, 0, 0, 0, 0); },
-            [&](std::size_t d) {
-                return row(x(dummies.x[d]), y(dummies.y[d]), dummies.volume[d] / cell, 0, 0, 0, 0, 0);
-            });
+        fill_fluid(particles,
+                   [&](std::size_t i) { return row(x(fluid.x[i]), y(fluid.y[i]), 1, 0, 0, 0, 0, 0); });
+        fill_dummies(particles, [&](std::size_t d) {
+            return row(x(dummies.x[d]), y(dummies.y[d]), dummies.volume[d] / cell, 0, 0, 0, 0, 0);
+        });
     }
 
-    // For ForceView.
-    void fill_forces(const Particles& particles) {
+    // The fluid's rows of all the full step's passes: ForceView, WallView and MeanView.
+    void fill_full_step(const Particles& particles) {
         const FluidParticles& fluid = particles.fluid;
-        const DummyParticles& dummies = particles.dummies;
         const double per_momentum = 1 / (units_.density * units_.velocity);
-        fill(
-            particles,
-            [&](std::size_t i) {
-                const double shifted = fluid.density[i] * per_momentum;
-                return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
-                           velocity(fluid.velocity_y[i]), shifted * fluid.shift_x[i],
-                           shifted * fluid.shift_y[i], volume(fluid.volume[i]), pressure(fluid.pressure[i]));
-            },
-            [&](std::size_t d) {
-                return row(x(dummies.x[d]), y(dummies.y[d]), velocity(dummies.velocity_x[d]),
-                           velocity(dummies.velocity_y[d]), 0, 0, volume(dummies.volume[d]),
-                           pressure(dummies.pressure[d]));
-            });
+        fill_fluid(particles, [&](std::size_t i) {
+            const double shifted = fluid.density[i] * per_momentum;
+            return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
+                       velocity(fluid.velocity_y[i]), shifted * fluid.shift_x(i), shifted * fluid.shift_y(i),
+                       volume(fluid.volume[i]), pressure(fluid.pressure[i]));
+        });
+    }
+
+    // The dummies' rows for ForceView.
+    void fill_force_dummies(const Particles& particles) {
+        const DummyParticles& dummies = particles.dummies;
+        fill_dummies(particles, [&](std::size_t d) {
+            return row(x(dummies.x[d]), y(dummies.y[d]), velocity(dummies.velocity_x[d]),
+                       velocity(dummies.velocity_y[d]), 0, 0, volume(dummies.volume[d]),
+                       pressure(dummies.pressure[d]));
+        });
     }
 
     // For WallView, or SpinningWallView where there are discs: a dummy's row lies at its wall point.
-    void fill_walls(const Particles& particles) {
-        const FluidParticles& fluid = particles.fluid;
+    void fill_wall_dummies(const Particles& particles) {
         const DummyParticles& dummies = particles.dummies;
         const bool spins = !particles.discs.empty();
-        fill(
-            particles,
-            [&](std::size_t i) {
-                return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
-                           velocity(fluid.velocity_y[i]), pressure(fluid.pressure[i]), 0, 0, 0);
-            },
-            [&](std::size_t d) {
-                const Vector to_wall = dummies.depth[d] * Vector(dummies.normal_x[d], dummies.normal_y[d]);
-                const double spin = dummies.of_disc(d) ? particles.discs[dummies.disc(d)].spin : 0;
-                // As a vector the depth needs a direction, however small it is.
-                const double depth = dummies.depth[d] * per_length_;
-                const double scale = spins ? std::max(depth, 1e-6) : 1;
-                return row(x(dummies.x[d] + to_wall.x()), y(dummies.y[d] + to_wall.y()),
-                           scale * dummies.normal_x[d], scale * dummies.normal_y[d],
-                           velocity(dummies.solid_velocity_x[d] - spin * to_wall.y()),
-                           velocity(dummies.solid_velocity_y[d] + spin * to_wall.x()),
-                           spins ? velocity(spin) * units_.length : depth,
-                           0.5 * dummies.curvature[d] * units_.length);
-            });
+        fill_dummies(particles, [&](std::size_t d) {
+            const Vector to_wall = dummies.depth[d] * Vector(dummies.normal_x[d], dummies.normal_y[d]);
+            const double spin = dummies.of_disc(d) ? particles.discs[dummies.disc(d)].spin : 0;
+            // As a vector the depth needs a direction, however small it is.
+            const double depth = dummies.depth[d] * per_length_;
+            const double scale = spins ? std::max(depth, 1e-6) : 1;
+            return row(
+                x(dummies.x[d] + to_wall.x()), y(dummies.y[d] + to_wall.y()), scale * dummies.normal_x[d],
+                scale * dummies.normal_y[d], velocity(dummies.solid_velocity_x[d] - spin * to_wall.y()),
+                velocity(dummies.solid_velocity_y[d] + spin * to_wall.x()),
+                spins ? velocity(spin) * units_.length : depth, 0.5 * dummies.curvature[d] * units_.length);
+        });
     }
 
     // For MeanView. `acceleration`: of the fluid by its body force, m/s2.
-    void fill_means(const Particles& particles, const Vector& acceleration) {
-        const FluidParticles& fluid = particles.fluid;
+    void fill_mean_dummies(const Particles& particles, const Vector& acceleration) {
         const DummyParticles& dummies = particles.dummies;
         const double per_acceleration = 1 / units_.acceleration();
-        fill(
-            particles,
-            [&](std::size_t i) {
-                return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
-                           velocity(fluid.velocity_y[i]), volume(fluid.volume[i]),
-                           pressure(fluid.pressure[i]), 0, 0);
-            },
-            [&](std::size_t d) {
-                Vector force = per_acceleration * acceleration;
-                if (dummies.of_disc(d)) {
-                    force -= per_acceleration * solid_acceleration(particles, d);
-                }
-                return row(x(dummies.x[d]), y(dummies.y[d]), force.x(), force.y(), 1, 0, 0, 0);
-            });
+        fill_dummies(particles, [&](std::size_t d) {
+            Vector force = per_acceleration * acceleration;
+            if (dummies.of_disc(d)) {
+                force -= per_acceleration * solid_acceleration(particles, d);
+            }
+            return row(x(dummies.x[d]), y(dummies.y[d]), force.x(), force.y(), 0, 0, 1, 0);
+        });
     }
 
   private:
@@ -165,24 +149,31 @@ template <class Real> class PassRows {
         return disc.acceleration() + disc.angular_acceleration() * left_of(arm) - disc.spin * disc.spin * arm;
     }
 
-    template <class FluidRow, class DummyRow>
-    void fill(const Particles& particles, FluidRow&& fluid_row, DummyRow&& dummy_row) {
+    template <class FluidRow> void fill_fluid(const Particles& particles, FluidRow&& fluid_row) {
         rows_.resize(periodic_.row_count());
-        const auto fluid_count = static_cast<std::ptrdiff_t>(particles.fluid.size());
-        const auto dummy_count = static_cast<std::ptrdiff_t>(particles.dummies.size());
-        const auto copies = periodic_.copies();
+        fill_rows(0, particles.fluid.size(), periodic_.fluid_copies(), fluid_row);
+        // Beyond every kernel; the ones keep quotients of volumes finite.
+        constexpr double far = 1e6;
+        rows_.back() = row(far, far, 0, 0, 1, 1, 1, 0);
+    }
+
+    template <class DummyRow> void fill_dummies(const Particles& particles, DummyRow&& dummy_row) {
+        fill_rows(particles.fluid.size(), particles.dummies.size(), periodic_.dummy_copies(), dummy_row);
+    }
+
+    // `count` rows from `first` on, then their copies.
+    template <class MakeRow>
+    void fill_rows(std::size_t first, std::size_t count, std::span<const PeriodicRows::Copy> copies,
+                   MakeRow&& make_row) {
+        const auto row_count = static_cast<std::ptrdiff_t>(count);
         const auto copy_count = static_cast<std::ptrdiff_t>(copies.size());
-        Row<Real>* const to_dummies = rows_.data() + fluid_count;
-        Row<Real>* const to_copies = to_dummies + dummy_count;
+        Row<Real>* const to = rows_.data() + first;
+        Row<Real>* const to_copies = rows_.data() + periodic_.row_of(copies);
 #pragma omp parallel
         {
-#pragma omp for schedule(static) nowait
-            for (std::ptrdiff_t i = 0; i < fluid_count; ++i) {
-                rows_[static_cast<std::size_t>(i)] = fluid_row(static_cast<std::size_t>(i));
-            }
 #pragma omp for schedule(static)
-            for (std::ptrdiff_t d = 0; d < dummy_count; ++d) {
-                to_dummies[d] = dummy_row(static_cast<std::size_t>(d));
+            for (std::ptrdiff_t k = 0; k < row_count; ++k) {
+                to[k] = make_row(static_cast<std::size_t>(k));
             }
 #pragma omp for schedule(static)
             for (std::ptrdiff_t k = 0; k < copy_count; ++k) {
@@ -192,9 +183,6 @@ template <class Real> class PassRows {
                 to_copies[k].field[1] += static_cast<Real>(of.shift.y() * per_length_);
             }
         }
-        // Beyond every kernel; the ones keep quotients of volumes finite.
-        constexpr double far = 1e6;
-        rows_.back() = row(far, far, 0, 0, 1, 1, 1, 0);
     }
 
     Units units_;

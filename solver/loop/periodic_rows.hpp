@@ -27,7 +27,14 @@ class PeriodicRows {
 
     [[nodiscard]] std::size_t fluid_count() const { return fluid_count_; }
     [[nodiscard]] std::size_t particle_count() const { return particle_count_; }
+    // Of the fluid, then of the dummies.
     [[nodiscard]] std::span<const Copy> copies() const { return copies_; }
+    [[nodiscard]] std::span<const Copy> fluid_copies() const { return copies().first(fluid_copies_); }
+    [[nodiscard]] std::span<const Copy> dummy_copies() const { return copies().subspan(fluid_copies_); }
+    // Of the first of some of the copies.
+    [[nodiscard]] std::size_t row_of(std::span<const Copy> some) const {
+        return particle_count_ + static_cast<std::size_t>(some.data() - copies_.data());
+    }
     [[nodiscard]] std::size_t row_count() const { return particle_count_ + copies_.size() + 1; }
     [[nodiscard]] std::uint32_t padding() const { return static_cast<std::uint32_t>(row_count() - 1); }
 

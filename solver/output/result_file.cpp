@@ -48,6 +48,7 @@ struct ResultFile::Implementation {
     PartialFile partial;
     Hdf5Writer writer; // destroyed before the file it writes to
     std::vector<XdmfSnapshot> snapshots;
+    XdmfSnapshot unfinished{}; // of them when it has ended
 
     Implementation(const std::filesystem::path& target, const Scene& scene)
         : title(scene.title), probes(scene.probes), partial(target), writer(partial.path()) {}
@@ -56,6 +57,13 @@ struct ResultFile::Implementation {
         return std::ranges::any_of(probes, [&](const ProbeScene& known) {
             return known.name == probe && std::holds_alternative<PointProbe>(known.kind);
         });
+    }
+    template <class Value>
+    void add_to_snapshot(std::string_view quantity, std::string_view unit, std::span<const Value> values) {
+        const std::string path = fmt::format("{}/{}", unfinished.group, quantity);
+        if (values.size() != unfinished.particles)
+            throw std::logic_error(path + ": needs one value for each particle");
+        writer.write(path, unit, values);
     }
     std::filesystem::path finish_as(const std::string& stem);
     void require_as_many_rows_as_times(const std::string& group, const std::string& path) const {
@@ -129,29 +137,28 @@ void ResultFile::name_discs(std::span<const std::string> names) {
     implementation_->writer.set_attribute("/discs", "names", fmt::format("{}", fmt::join(names, ",")));
 }
 
-void ResultFile::add_snapshot(const Snapshot& snapshot) {
+void ResultFile::begin_snapshot(double time, std::size_t particles) {
+    implementation_->unfinished = {snapshot_group(implementation_->snapshots.size()), time, particles};
+}
+
+void ResultFile::add_to_snapshot(std::string_view quantity, std::string_view unit,
+                                 std::span<const double> values) {
+    implementation_->add_to_snapshot(quantity, unit, values);
+}
+
+void ResultFile::add_to_snapshot(std::string_view quantity, std::string_view unit,
+                                 std::span<const int> values) {
+    implementation_->add_to_snapshot(quantity, unit, values);
+}
+
+void ResultFile::end_snapshot() {
     Hdf5Writer& writer = implementation_->writer;
-    const std::size_t particles = snapshot.wall.size();
-    const std::string group = snapshot_group(implementation_->snapshots.size());
-    const auto add = [&](std::string_view quantity, std::string_view unit, auto values) {
-        const std::string path = fmt::format("{}/{}", group, quantity);
-        if (values.size() != particles)
-            throw std::logic_error(path + ": needs one value for each particle");
-        writer.write(path, unit, values);
-    };
-    add("position_x", "m", snapshot.position_x);
-    add("position_y", "m", snapshot.position_y);
-    add("velocity_x", "m/s", snapshot.velocity_x);
-    add("velocity_y", "m/s", snapshot.velocity_y);
-    add("density", "kg/m3", snapshot.density);
-    add("pressure", "Pa", snapshot.pressure);
-    add("volume", "m2", snapshot.volume);
-    add("wall", "1", snapshot.wall);
+    const XdmfSnapshot& snapshot = implementation_->unfinished;
     // The one form of a vector that all of ParaView's XDMF readers take.
-    writer.write_vector_view(group + "/position", "m", particles);
-    writer.write_vector_view(group + "/velocity", "m/s", particles);
-    writer.set_attribute(group, "time", snapshot.time);
-    implementation_->snapshots.push_back({group, snapshot.time, particles});
+    writer.write_vector_view(snapshot.group + "/position", "m", snapshot.particles);
+    writer.write_vector_view(snapshot.group + "/velocity", "m/s", snapshot.particles);
+    writer.set_attribute(snapshot.group, "time", snapshot.time);
+    implementation_->snapshots.push_back(snapshot);
     writer.flush();
 }
 

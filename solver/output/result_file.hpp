@@ -21,13 +21,6 @@ class OutputError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// All particles at one time; the spans have equal length and are ordered by particle identity.
-struct Snapshot {
-    double time;
-    std::span<const double> position_x, position_y, velocity_x, velocity_y, density, pressure, volume;
-    std::span<const int> wall; // index of the wall a dummy belongs to, -1 for fluid
-};
-
 // Collects the results in `result.h5.partial` and gives the file its name only when the run has ended well;
 // when it is destroyed before, the partial file is removed.
 class ResultFile {
@@ -59,7 +52,12 @@ class ResultFile {
     void add_disc_constant(std::string_view quantity, std::string_view unit, std::span<const double> values);
     void name_discs(std::span<const std::string> names);
 
-    void add_snapshot(const Snapshot& snapshot); // /snapshots/0000/...
+    // All particles at one time, /snapshots/0000/...: a quantity at a time, each with one value for each
+    // particle, the fluid's ordered by identity; they are positions, velocities and whatever else.
+    void begin_snapshot(double time, std::size_t particles);
+    void add_to_snapshot(std::string_view quantity, std::string_view unit, std::span<const double> values);
+    void add_to_snapshot(std::string_view quantity, std::string_view unit, std::span<const int> values);
+    void end_snapshot();
 
     // A number about the run: attribute of /run (fluid_particles, steps, wall_seconds, threads, ...).
     void set_attribute(std::string_view name, double value);

@@ -10,16 +10,19 @@
 namespace slurry {
 
 struct FluidParticles {
-    double mass = 0; // kg/m, of every particle
+    double mass = 0;       // kg/m, of every particle
+    double shift_time = 0; // s, half a time step: see shift()
     std::vector<double> x, y;
     std::vector<double> velocity_x, velocity_y;
-    std::vector<double> shift_x, shift_y;               // advection velocity less velocity, v~ - v
     std::vector<double> acceleration_x, acceleration_y; // dv~/dt of Eq. 2.20
     std::vector<double> background_x, background_y;     // f_pb of Eq. 2.30, times -1 (an acceleration)
     std::vector<double> density, density_rate, pressure, volume;
     std::vector<std::uint32_t> identity; // position in the start's order; sorting moves particles, not this
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
+    // Eq. 2.30: how much faster than the fluid the particles move, v~ - v.
+    [[nodiscard]] double shift_x(std::size_t i) const { return shift_time * background_x[i]; }
+    [[nodiscard]] double shift_y(std::size_t i) const { return shift_time * background_y[i]; }
     void resize(std::size_t count);
     // Calls visit(vector) for every array of doubles.
     template <class Visit> void each_array(Visit&& visit) { each_array_of(*this, visit); }
@@ -27,10 +30,9 @@ struct FluidParticles {
 
   private:
     template <class Self, class Visit> static void each_array_of(Self& self, Visit&& visit) {
-        for (auto* array :
-             {&self.x, &self.y, &self.velocity_x, &self.velocity_y, &self.shift_x, &self.shift_y,
-              &self.acceleration_x, &self.acceleration_y, &self.background_x, &self.background_y,
-              &self.density, &self.density_rate, &self.pressure, &self.volume}) {
+        for (auto* array : {&self.x, &self.y, &self.velocity_x, &self.velocity_y, &self.acceleration_x,
+                            &self.acceleration_y, &self.background_x, &self.background_y, &self.density,
+                            &self.density_rate, &self.pressure, &self.volume}) {
             visit(*array);
         }
     }

@@ -65,7 +65,7 @@ template <class Real> struct ForceCoefficients {
 };
 
 // Wall fits. A dummy's row holds the nearest point of the wall, the frame there, and the wall's velocity; a
-// fluid particle's row its velocity and pressure.
+// fluid particle's row is that of the forces.
 template <class P> struct WallView {
     Fields<P> field;
     const P& x() const { return field[0]; }
@@ -78,7 +78,7 @@ template <class P> struct WallView {
     const P& half_curvature() const { return field[7]; }
     const P& velocity_x() const { return field[2]; }
     const P& velocity_y() const { return field[3]; }
-    const P& pressure() const { return field[4]; }
+    const P& pressure() const { return field[7]; }
 };
 
 // The same where solids turn: the row of a dummy has its depth as a vector along the normal, to make room for
@@ -95,7 +95,8 @@ template <class P> struct SpinningWallView : WallView<P> {
     const P& spin() const { return this->field[6]; }
 };
 
-// Kernel means. A dummy's row holds the force per mass that the fluid feels in the frame of the solid there.
+// Kernel means. A dummy's row holds the force per mass that the fluid feels in the frame of the solid there;
+// a fluid particle's row is that of the forces.
 template <class P> struct MeanView {
     Fields<P> field;
     const P& x() const { return field[0]; }
@@ -104,8 +105,8 @@ template <class P> struct MeanView {
     const P& velocity_y() const { return field[3]; }
     const P& force_x() const { return field[2]; } // f - a_wall
     const P& force_y() const { return field[3]; }
-    const P& volume() const { return field[4]; }
-    const P& pressure() const { return field[5]; }
+    const P& volume() const { return field[6]; }
+    const P& pressure() const { return field[7]; }
 };
 
 // Extrapolation to dummies: v_f and p_f averaged with the kernel as weight.

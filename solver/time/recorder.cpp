@@ -28,22 +28,22 @@ void wrap(std::vector<double>& positions, double lower, double upper) {
     }
 }
 
+std::vector<double> wrapped(const FluidParticles& fluid, const Domain& domain, int axis) {
+    std::vector<double> positions = by_identity(fluid, axis == 0 ? fluid.x : fluid.y);
+    if (domain.periodic[static_cast<std::size_t>(axis)]) {
+        wrap(positions, domain.lower[axis], domain.upper[axis]);
+    }
+    return positions;
+}
+
 // The fluid in the order of the start, positions wrapped into the domain.
 struct OrderedFluid {
-    std::vector<double> x, y, velocity_x, velocity_y, density, pressure, volume;
+    std::vector<double> x, y, velocity_x, velocity_y, pressure;
 
     OrderedFluid(const FluidParticles& fluid, const Domain& domain)
-        : x(by_identity(fluid, fluid.x)), y(by_identity(fluid, fluid.y)),
+        : x(wrapped(fluid, domain, 0)), y(wrapped(fluid, domain, 1)),
           velocity_x(by_identity(fluid, fluid.velocity_x)), velocity_y(by_identity(fluid, fluid.velocity_y)),
-          density(by_identity(fluid, fluid.density)), pressure(by_identity(fluid, fluid.pressure)),
-          volume(by_identity(fluid, fluid.volume)) {
-        if (domain.periodic[0]) {
-            wrap(x, domain.lower.x(), domain.upper.x());
-        }
-        if (domain.periodic[1]) {
-            wrap(y, domain.lower.y(), domain.upper.y());
-        }
-    }
+          pressure(by_identity(fluid, fluid.pressure)) {}
     [[nodiscard]] FluidView view() const { return {x, y, velocity_x, velocity_y, pressure}; }
 };
 
@@ -55,11 +55,6 @@ std::vector<bool> evenly_due(long steps, int samples, bool from_start) {
         due[static_cast<std::size_t>(std::lround(static_cast<double>(steps) * k / intervals))] = true;
     }
     return due;
-}
-
-std::vector<double> doubles_of(std::vector<double> first, const std::vector<double>& second) {
-    first.insert(first.end(), second.begin(), second.end());
-    return first;
 }
 
 } // namespace
@@ -116,9 +111,10 @@ void Recorder::record(const Particles& particles, long step) {
 }
 
 void Recorder::record_series(const Particles& particles) {
-    const OrderedFluid fluid(particles.fluid, scene_.domain);
-    const Totals totals = fluid_totals(fluid.velocity_x, fluid.velocity_y, fluid.density,
-                                       particles.fluid.mass, scene_.fluid.density);
+    const FluidParticles& fluid = particles.fluid;
+    const Totals totals =
+        fluid_totals(by_identity(fluid, fluid.velocity_x), by_identity(fluid, fluid.velocity_y),
+                     by_identity(fluid, fluid.density), fluid.mass, scene_.fluid.density);
     file_.begin_sample(particles.time);
     file_.add_sample("kinetic_energy", "J/m", totals.kinetic_energy);
     file_.add_sample("momentum_x", "kg/s", totals.momentum.x());
@@ -127,6 +123,16 @@ void Recorder::record_series(const Particles& particles) {
     file_.add_sample("largest_speed", "m/s", totals.largest_speed);
     file_.add_sample("largest_density_error", "1", totals.largest_density_error);
     record_discs(particles);
+    const auto is_point = [](const ProbeScene& probe) {
+        return std::holds_alternative<PointProbe>(probe.kind);
+    };
+    if (std::ranges::any_of(scene_.probes, is_point)) {
+        record_points(particles);
+    }
+}
+
+void Recorder::record_points(const Particles& particles) {
+    const OrderedFluid fluid(particles.fluid, scene_.domain);
     const ParticleFinder finder(fluid.view(), scene_.domain, scene_.numerics.particle_spacing);
     for (const ProbeScene& probe : scene_.probes) {
         if (const auto* point = std::get_if<PointProbe>(&probe.kind)) {
@@ -202,19 +208,28 @@ void Recorder::record_walls_and_grids(const Particles& particles) {
     }
 }
 
+// One quantity at a time: a copy of all would be a good part of the run's memory.
 void Recorder::record_snapshot(const Particles& particles) {
-    const OrderedFluid fluid(particles.fluid, scene_.domain);
+    const FluidParticles& fluid = particles.fluid;
     const DummyParticles& dummies = particles.dummies;
-    std::vector<int> wall(fluid.x.size(), -1);
+    file_.begin_snapshot(particles.time, fluid.size() + dummies.size());
+    const auto add = [&](const char* quantity, const char* unit, std::vector<double> of_fluid,
+                         const std::vector<double>& of_dummies) {
+        of_fluid.insert(of_fluid.end(), of_dummies.begin(), of_dummies.end());
+        file_.add_to_snapshot(quantity, unit, of_fluid);
+    };
+    add("position_x", "m", wrapped(fluid, scene_.domain, 0), dummies.x);
+    add("position_y", "m", wrapped(fluid, scene_.domain, 1), dummies.y);
+    add("velocity_x", "m/s", by_identity(fluid, fluid.velocity_x), dummies.velocity_x);
+    add("velocity_y", "m/s", by_identity(fluid, fluid.velocity_y), dummies.velocity_y);
+    add("density", "kg/m3", by_identity(fluid, fluid.density),
+        std::vector<double>(dummies.size(), scene_.fluid.density));
+    add("pressure", "Pa", by_identity(fluid, fluid.pressure), dummies.pressure);
+    add("volume", "m2", by_identity(fluid, fluid.volume), dummies.volume);
+    std::vector<int> wall(fluid.size(), -1); // index of the wall that a dummy belongs to
     wall.insert(wall.end(), dummies.wall.begin(), dummies.wall.end());
-    const auto x = doubles_of(fluid.x, dummies.x);
-    const auto y = doubles_of(fluid.y, dummies.y);
-    const auto velocity_x = doubles_of(fluid.velocity_x, dummies.velocity_x);
-    const auto velocity_y = doubles_of(fluid.velocity_y, dummies.velocity_y);
-    const auto density = doubles_of(fluid.density, std::vector<double>(dummies.size(), scene_.fluid.density));
-    const auto pressure = doubles_of(fluid.pressure, dummies.pressure);
-    const auto volume = doubles_of(fluid.volume, dummies.volume);
-    file_.add_snapshot({particles.time, x, y, velocity_x, velocity_y, density, pressure, volume, wall});
+    file_.add_to_snapshot("wall", "1", wall);
+    file_.end_snapshot();
 }
 
 } // namespace slurry

@@ -27,6 +27,7 @@ class Recorder {
 
     void begin_probes();
     void record_series(const Particles& particles);
+    void record_points(const Particles& particles);
     void record_discs(const Particles& particles);
     void record_walls_and_grids(const Particles& particles);
 

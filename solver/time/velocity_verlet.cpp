@@ -22,35 +22,28 @@ void kick(FluidParticles& fluid, std::size_t i, double time) {
     fluid.velocity_y[i] += time * fluid.acceleration_y[i];
 }
 
-// Eq. 2.30: how much faster than the fluid the particles move.
-void shift(FluidParticles& fluid, std::size_t i, double time) {
-    fluid.shift_x[i] = time * fluid.background_x[i];
-    fluid.shift_y[i] = time * fluid.background_y[i];
-}
-
 // Eqs. 2.31 and 2.33.
 void drift(FluidParticles& fluid, std::size_t i, double time) {
-    fluid.x[i] += time * (fluid.velocity_x[i] + fluid.shift_x[i]);
-    fluid.y[i] += time * (fluid.velocity_y[i] + fluid.shift_y[i]);
+    fluid.x[i] += time * (fluid.velocity_x[i] + fluid.shift_x(i));
+    fluid.y[i] += time * (fluid.velocity_y[i] + fluid.shift_y(i));
 }
 
 // Eq. 2.32
-void update_density(FluidParticles& fluid, std::size_t i, double time) {
-    fluid.density[i] += time * fluid.density_rate[i];
+void update_density(FluidParticles& fluid, std::size_t i, double time, double mean_rate) {
+    fluid.density[i] += time * (fluid.density_rate[i] - mean_rate);
 }
 
 // The fluid's mass and the room that walls and discs leave it stay the same, and so does its mean density.
 // The sums over pairs miss that by a little, which adds up over ten thousands of steps. One thread: the order
 // of the sum must not depend on how many there are.
-void keep_mean_density(FluidParticles& fluid) {
+double mean_density_rate(const FluidParticles& fluid) {
     const std::size_t count = fluid.size();
     double sum = 0;
 #pragma omp simd reduction(+ : sum)
     for (std::size_t i = 0; i < count; ++i) {
         sum += fluid.density_rate[i];
     }
-    const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
-    for_each(fluid, [&](std::size_t i) { fluid.density_rate[i] -= mean; });
+    return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
 // Walls and discs keep pace with the fluid.
@@ -105,25 +98,24 @@ void advance(Particles& particles, Forces& forces, double time_step, PhaseClock&
     };
     FluidParticles& fluid = particles.fluid;
     const double half = time_step / 2;
+    fluid.shift_time = half;
     kick_discs(particles, half);
     for_each(fluid, [&](std::size_t i) {
         kick(fluid, i, half);
-        shift(fluid, i, half);
         drift(fluid, i, half);
     });
     move_solids(particles, half);
 
     refresh_neighbours();
+    double lost_rate = 0;
     {
         const PhaseClock::Scope scope(clock, "density rate");
         forces.interactions.compute_density_rate(
             particles); // at the half step, so that density is second order in time
-        if (forces.keep_mean_density) {
-            keep_mean_density(fluid);
-        }
+        lost_rate = forces.keep_mean_density ? mean_density_rate(fluid) : 0;
     }
     for_each(fluid, [&](std::size_t i) {
-        update_density(fluid, i, time_step);
+        update_density(fluid, i, time_step, lost_rate);
         drift(fluid, i, half); // with the velocity of the half step
     });
     move_solids(particles, half);

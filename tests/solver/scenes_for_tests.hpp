@@ -61,11 +61,12 @@ inline void disorder(Particles& particles, const Scene& scene, unsigned seed = 3
     std::uniform_real_distribution<double> uniform(-1, 1);
     const EquationOfState equation_of_state{scene.fluid.density, scene.numerics.sound_speed};
     FluidParticles& fluid = particles.fluid;
+    fluid.shift_time = 0.5;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         fluid.velocity_x[i] = uniform(generator);
         fluid.velocity_y[i] = uniform(generator);
-        fluid.shift_x[i] = 0.1 * uniform(generator);
-        fluid.shift_y[i] = 0.1 * uniform(generator);
+        fluid.background_x[i] = 0.1 * uniform(generator) / fluid.shift_time;
+        fluid.background_y[i] = 0.1 * uniform(generator) / fluid.shift_time;
         fluid.density[i] = scene.fluid.density * (1 + 0.02 * uniform(generator));
         fluid.pressure[i] = equation_of_state.pressure(fluid.density[i]);
     }

@@ -288,7 +288,7 @@ class AllPairs {
         return pick(j, fluid_.velocity_x, fluid_.velocity_y, dummies_.velocity_x, dummies_.velocity_y);
     }
     [[nodiscard]] Vector advection_shift(std::size_t i) const {
-        return {fluid_.shift_x[i], fluid_.shift_y[i]};
+        return {fluid_.shift_x(i), fluid_.shift_y(i)};
     }
     [[nodiscard]] double continuity_density(std::size_t j) const {
         const double c = scene_.numerics.sound_speed;
@@ -347,7 +347,7 @@ class AllPairs {
     }
     [[nodiscard]] Matrix advection(std::size_t j) const {
         return is_fluid(j) ? Matrix(fluid_.density[j] * velocity_of(j) *
-                                    Vector(fluid_.shift_x[j], fluid_.shift_y[j]).transpose())
+                                    Vector(fluid_.shift_x(j), fluid_.shift_y(j)).transpose())
                            : Matrix(Matrix::Zero());
     }
     [[nodiscard]] Vector pick(std::size_t j, const std::vector<double>& fluid_x,

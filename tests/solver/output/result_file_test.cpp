@@ -46,7 +46,19 @@ class ResultFileTest : public ::testing::Test {
         for (const double time : {0.0, 1.5}) {
             file.begin_probe_sample("wafer", time);
             file.add_probe_row("wafer", "pressure", "Pa", std::vector<double>{time, NAN, 3.0});
-            file.add_snapshot({time, values, values, values, values, values, values, values, wall});
+            file.begin_snapshot(time, particles);
+            for (const auto& [quantity, unit] :
+                 std::vector<std::pair<const char*, const char*>>{{"position_x", "m"},
+                                                                  {"position_y", "m"},
+                                                                  {"velocity_x", "m/s"},
+                                                                  {"velocity_y", "m/s"},
+                                                                  {"density", "kg/m3"},
+                                                                  {"pressure", "Pa"},
+                                                                  {"volume", "m2"}}) {
+                file.add_to_snapshot(quantity, unit, values);
+            }
+            file.add_to_snapshot("wall", "1", wall);
+            file.end_snapshot();
         }
         file.set_attribute("steps", 41);
         file.set_attribute("steps", 42);

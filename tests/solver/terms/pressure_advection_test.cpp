@@ -50,14 +50,15 @@ double advection_error(Compressibility compressibility, const Vector& velocity, 
     scene.numerics.density_diffusion = 0;
     Particles particles = arrange(scene);
     FluidParticles& fluid = particles.fluid;
+    fluid.shift_time = 1;
     const double wave_number = 2 * std::numbers::pi / scene.domain.size().x();
     const double amplitude = 1e-3 * scene.fluid.density;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         fluid.density[i] = scene.fluid.density + amplitude * std::sin(wave_number * fluid.x[i]);
         fluid.velocity_x[i] = 0.75 * velocity.x(); // and the rest as the shift
-        fluid.shift_x[i] = 0.25 * velocity.x();
+        fluid.background_x[i] = 0.25 * velocity.x();
         fluid.velocity_y[i] = velocity.y();
-        fluid.shift_y[i] = 0;
+        fluid.background_y[i] = 0;
     }
     const auto interactions = make_interactions(scene);
     interactions->refresh_neighbours(particles);
