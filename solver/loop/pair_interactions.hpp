@@ -242,9 +242,10 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     }
 
     [[nodiscard]] ForceCoefficients<Real> force_coefficients(const Particles& particles) const {
+        const double time_step = 2 * particles.fluid.shift_time;
         return {static_cast<Real>(units_.mass() / particles.fluid.mass),
                 static_cast<Real>(fluid_.dynamic_viscosity / units_.dynamic_viscosity()),
-                static_cast<Real>(numerics_.background_pressure_ratio)};
+                static_cast<Real>(stable_background_pressure_ratio(numerics_, time_step))};
     }
 
     template <class... Forces> void sweep_forces(Particles& particles) {

@@ -100,9 +100,11 @@ const std::vector<Parameter> parameter_table{
     {"numerics", "", "sound_speed", member(&Numerics::sound_speed), "m/s", required, positive(),
      "artificial; 10 times the largest flow speed keeps density within 1 %"},
     {"numerics", "", "background_pressure_ratio", member(&Numerics::background_pressure_ratio), "", 1.0,
-     between(0, 10), "background pressure over density * sound_speed^2; 0 turns the transport velocity off"},
+     between(0, 10),
+     "background pressure over density * sound_speed^2, at most 0.85 / (sound_speed * time step / "
+     "smoothing_length)^2; 0 turns the transport velocity off"},
     {"numerics", "", "acoustic_cfl", member(&Numerics::acoustic_cfl), "", Default::by_scheme(0.75, 0.25),
-     positive_up_to(10), "time step over smoothing_length / (sound_speed + speed)"},
+     positive_up_to(10), "time step over smoothing_length / sound_speed"},
     {"numerics", "", "viscous_cfl", member(&Numerics::viscous_cfl), "", Default::by_scheme(0.4, 0.25),
      positive_up_to(10), "time step over smoothing_length^2 / kinematic viscosity"},
     {"numerics", "", "force_cfl", member(&Numerics::force_cfl), "", 0.25, positive_up_to(10),

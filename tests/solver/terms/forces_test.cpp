@@ -84,6 +84,22 @@ TEST(Forces, BackgroundPressureHasNoResultantAndSpreadsAPair) {
     }
 }
 
+// Half the square of a time step times the acceleration must not carry particles past even spacing.
+TEST(Forces, BackgroundPressureIsLimitedForLongTimeSteps) {
+    Box box;
+    const double unit = box.scene.numerics.smoothing_length() / box.scene.numerics.sound_speed;
+    const auto push = [&](double time_step) {
+        Particles particles = box.particles;
+        particles.fluid.shift_time = time_step / 2;
+        compute(box.scene, particles);
+        return largest(particles.fluid.background_x);
+    };
+    const double free = push(0);
+    EXPECT_EQ(push(0.75 * unit), free); // the default
+    EXPECT_NEAR(push(2 * unit), 0.85 / 4 * free, 1e-5 * free);
+    EXPECT_NEAR(push(3 * unit) * 9, push(2 * unit) * 4, 1e-5 * free);
+}
+
 // Particles of a lattice with full support, away from the sides of a box without walls.
 template <class Check> void for_interior(const Scene& scene, const Particles& particles, Check&& check) {
     const FluidParticles& fluid = particles.fluid;
