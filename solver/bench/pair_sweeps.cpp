@@ -70,8 +70,6 @@ template <class Real> class SweepTimer {
           neighbourhood_(scene_, Kernel::support, Kernel::support, W, sizeof(Row<Real>)),
           rows_(scene_, neighbourhood_.periodic()), peak_(peak), repetitions_(repetitions) {
         neighbourhood_.refresh(particles_);
-        const double spacing = scene_.numerics.particle_spacing;
-        std::ranges::fill(particles_.fluid.volume, spacing * spacing);
         rows_.fill_rate(particles_);
         evaluated_ = static_cast<double>(neighbourhood_.of_fluid().evaluated());
         useful_ = static_cast<double>(count_pairs<Real, W, Kernel, RateView>(

@@ -34,7 +34,7 @@ class Interactions {
     virtual void restore_lists(const Particles& particles, const ListOrigin& origin) = 0;
     // Eq. 2.14 with the scene's corrections, into fluid.density_rate.
     virtual void compute_density_rate(Particles& particles) = 0;
-    // m / rho, 1 / sum W (below Eq. 2.8) or m / rho0, as the scene says, into fluid.volume.
+    // 1 / sum W (below Eq. 2.8) into fluid.number_density_volume, if the scene asks for it.
     virtual void compute_volumes(Particles& particles) = 0;
     // Eqs. 2.16 and 2.17, into the dummies' velocity and pressure. The fluid has to stay as it is until the
     // forces are computed, if they are next: both read the same rows.

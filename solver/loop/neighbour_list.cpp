@@ -94,10 +94,9 @@ void NeighbourList::build(std::span<const double> x, std::span<const double> y,
                           std::uint32_t padding, double cutoff, double row_height) {
     const auto finder = make_finder(search_, {x, y, candidates, first, last, cutoff, row_height});
     const std::size_t block_count = (last - first + width_ - 1) / width_;
-    targets_.assign(block_count * width_, padding * stride_);
-    for (std::size_t target = first; target < last; ++target) {
-        targets_[target - first] = static_cast<std::uint32_t>(target) * stride_;
-    }
+    first_ = first;
+    last_ = last;
+    padding_ = padding;
     blocks_.resize(block_count);
     chunks_.resize((block_count + chunk_blocks - 1) / chunk_blocks);
     const auto chunk_count = static_cast<std::ptrdiff_t>(chunks_.size());
@@ -169,8 +168,7 @@ std::size_t NeighbourList::pairs() const {
 }
 
 std::size_t NeighbourList::bytes() const {
-    return std::accumulate(chunks_.begin(), chunks_.end(),
-                           targets_.capacity() * sizeof(std::uint32_t) + blocks_.capacity() * sizeof(Block),
+    return std::accumulate(chunks_.begin(), chunks_.end(), blocks_.capacity() * sizeof(Block),
                            [](std::size_t sum, const Chunk& chunk) {
                                return sum + sizeof(Chunk) + chunk.entries.capacity() * sizeof(std::uint32_t);
                            });

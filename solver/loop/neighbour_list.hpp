@@ -26,8 +26,10 @@ class NeighbourList {
                std::uint32_t padding, double cutoff, double row_height = 0);
 
     [[nodiscard]] std::size_t block_count() const { return blocks_.size(); }
-    [[nodiscard]] const std::uint32_t* targets(std::size_t block) const {
-        return targets_.data() + block * width_;
+    // Offset of a block's row; that of the padding beyond the last target.
+    [[nodiscard]] std::uint32_t target(std::size_t block, std::size_t lane) const {
+        const std::size_t target = first_ + block * width_ + lane;
+        return static_cast<std::uint32_t>(target < last_ ? target : padding_) * stride_;
     }
     [[nodiscard]] const std::uint32_t* neighbours(std::size_t block) const {
         return chunks_[block / chunk_blocks].entries.data() + blocks_[block].first;
@@ -58,7 +60,7 @@ class NeighbourList {
     std::size_t width_;
     NeighbourSearch search_;
     std::uint32_t stride_;
-    std::vector<std::uint32_t> targets_;
+    std::size_t first_ = 0, last_ = 0, padding_ = 0;
     std::vector<Block> blocks_;
     std::vector<Chunk> chunks_;
 };

@@ -81,29 +81,17 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
 
     void compute_volumes(Particles& particles) override {
         FluidParticles& fluid = particles.fluid;
-        if (numerics_.particle_volume == ParticleVolume::constant) {
-            const double volume = fluid.mass / fluid_.density;
-            if (fluid.volume.empty() || fluid.volume.front() != volume) { // once
-                std::ranges::fill(fluid.volume, volume);
-            }
-            return;
-        }
-        if (numerics_.particle_volume == ParticleVolume::mass_over_density) {
-            const auto count = static_cast<std::ptrdiff_t>(fluid.size());
-#pragma omp parallel for simd schedule(static)
-            for (std::ptrdiff_t i = 0; i < count; ++i) {
-                fluid.volume[static_cast<std::size_t>(i)] =
-                    fluid.mass / fluid.density[static_cast<std::size_t>(i)];
-            }
+        if (numerics_.particle_volume != ParticleVolume::number_density) {
             return;
         }
         full_step_rows_ = false;
         rows_.fill_volume(particles, numerics_.particle_spacing);
         const VolumeCoefficients<Real> coefficients{make_pair<Kernel>(Real{0}, Real{0}).kernel};
+        fluid.number_density_volume.resize(fluid.size());
         sweep<Real, W, Kernel, VolumeView, Volume>(
             Composition<NumberDensity>{}, neighbourhood_.of_fluid(), rows_.rows(), coefficients,
             [&](std::size_t first, const Volume<P>& result) {
-                store_lanes(fluid.volume, first, result.volume, units_.volume());
+                store_lanes(fluid.number_density_volume, first, result.volume, units_.volume());
             });
     }
 

@@ -4,6 +4,7 @@
 #include "solver/loop/periodic_rows.hpp"
 #include "solver/loop/row.hpp"
 #include "solver/loop/units.hpp"
+#include "solver/terms/particle_volume.hpp"
 
 #include <algorithm>
 #include <span>
@@ -25,6 +26,7 @@ template <class Real> class PassRows {
   public:
     PassRows(const Scene& scene, const PeriodicRows& periodic)
         : units_(scene), wall_continuity_(scene.numerics.wall_continuity),
+          particle_volume_(scene.numerics.particle_volume), reference_density_(scene.fluid.density),
           kinematic_viscosity_(std::max(scene.fluid.kinematic_viscosity(), 1e-300)), periodic_(periodic) {}
 
     [[nodiscard]] std::span<const Row<Real>> rows() const { return rows_; }
@@ -69,7 +71,8 @@ template <class Real> class PassRows {
             const double shifted = fluid.density[i] * per_momentum;
             return row(x(fluid.x[i]), y(fluid.y[i]), velocity(fluid.velocity_x[i]),
                        velocity(fluid.velocity_y[i]), shifted * fluid.shift_x(i), shifted * fluid.shift_y(i),
-                       volume(fluid.volume[i]), pressure(fluid.pressure[i]));
+                       volume(particle_volume(fluid, i, particle_volume_, reference_density_)),
+                       pressure(fluid.pressure[i]));
         });
     }
 
@@ -187,6 +190,8 @@ template <class Real> class PassRows {
 
     Units units_;
     WallContinuity wall_continuity_;
+    ParticleVolume particle_volume_;
+    double reference_density_;   // kg/m3
     double kinematic_viscosity_; // m2/s
     const PeriodicRows& periodic_;
     double per_length_ = 1 / units_.length;

@@ -11,6 +11,7 @@
 #include "solver/loop/pair.hpp"
 #include "solver/loop/row.hpp"
 
+#include <array>
 #include <span>
 
 namespace slurry {
@@ -38,7 +39,11 @@ template <class Real, int W, class Kernel, template <class> class View, template
                                                    std::size_t block, const Row<Real>* rows,
                                                    const Coefficients& coefficients) {
     using P = Pack<Real, W>;
-    const View<P> i{gather<Real, W>(rows, list.targets(block))};
+    std::array<std::uint32_t, W> targets;
+    for (std::size_t lane = 0; lane < W; ++lane) {
+        targets[lane] = list.target(block, lane);
+    }
+    const View<P> i{gather<Real, W>(rows, targets.data())};
     AllSums<P, Terms...> sums{};
     const auto add = [&](const View<P>& j) {
         const Pair<P> pair = make_pair<Kernel>(P(i.x() - j.x()), P(i.y() - j.y()));

@@ -23,7 +23,8 @@ void DummyParticles::move_walls_to(double time) {
 }
 
 std::size_t FluidParticles::bytes() const {
-    std::size_t sum = identity.capacity() * sizeof(std::uint32_t);
+    std::size_t sum =
+        identity.capacity() * sizeof(std::uint32_t) + number_density_volume.capacity() * sizeof(double);
     each_array_of(*this, [&](const auto& array) { sum += array.capacity() * sizeof(array[0]); });
     return sum;
 }

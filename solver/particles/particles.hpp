@@ -16,7 +16,8 @@ struct FluidParticles {
     std::vector<double> velocity_x, velocity_y;
     std::vector<double> acceleration_x, acceleration_y; // dv~/dt of Eq. 2.20
     std::vector<double> background_x, background_y;     // f_pb of Eq. 2.30, times -1 (an acceleration)
-    std::vector<double> density, density_rate, pressure, volume;
+    std::vector<double> density, density_rate, pressure;
+    std::vector<double> number_density_volume; // m2, of scenes that ask for it: see particle_volume()
     std::vector<std::uint32_t> identity; // position in the start's order; sorting moves particles, not this
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
@@ -24,7 +25,7 @@ struct FluidParticles {
     [[nodiscard]] double shift_x(std::size_t i) const { return shift_time * background_x[i]; }
     [[nodiscard]] double shift_y(std::size_t i) const { return shift_time * background_y[i]; }
     void resize(std::size_t count);
-    // Calls visit(vector) for every array of doubles.
+    // Calls visit(vector) for every array of doubles that a step needs of the one before.
     template <class Visit> void each_array(Visit&& visit) { each_array_of(*this, visit); }
     [[nodiscard]] std::size_t bytes() const;
 
@@ -32,7 +33,7 @@ struct FluidParticles {
     template <class Self, class Visit> static void each_array_of(Self& self, Visit&& visit) {
         for (auto* array : {&self.x, &self.y, &self.velocity_x, &self.velocity_y, &self.acceleration_x,
                             &self.acceleration_y, &self.background_x, &self.background_y, &self.density,
-                            &self.density_rate, &self.pressure, &self.volume}) {
+                            &self.density_rate, &self.pressure}) {
             visit(*array);
         }
     }

@@ -4,6 +4,7 @@
 #include "solver/probes/point_probe.hpp"
 #include "solver/probes/totals.hpp"
 #include "solver/probes/wall_probe.hpp"
+#include "solver/terms/particle_volume.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -225,7 +226,12 @@ void Recorder::record_snapshot(const Particles& particles) {
     add("density", "kg/m3", by_identity(fluid, fluid.density),
         std::vector<double>(dummies.size(), scene_.fluid.density));
     add("pressure", "Pa", by_identity(fluid, fluid.pressure), dummies.pressure);
-    add("volume", "m2", by_identity(fluid, fluid.volume), dummies.volume);
+    std::vector<double> volumes(fluid.size());
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        volumes[fluid.identity[i]] =
+            particle_volume(fluid, i, scene_.numerics.particle_volume, scene_.fluid.density);
+    }
+    add("volume", "m2", std::move(volumes), dummies.volume);
     std::vector<int> wall(fluid.size(), -1); // index of the wall that a dummy belongs to
     wall.insert(wall.end(), dummies.wall.begin(), dummies.wall.end());
     file_.add_to_snapshot("wall", "1", wall);

@@ -38,7 +38,8 @@ class AllPairs {
     }
 
   private:
-    void compute_volumes() {
+    void compute_volumes() { // of any kind
+        fluid_.number_density_volume.resize(fluid_.size());
         for (std::size_t i = 0; i < fluid_.size(); ++i) {
             double sum = kernel(0);
             visit(i, [&](std::size_t j, const Vector& r) {
@@ -47,9 +48,9 @@ class AllPairs {
             });
             const bool constant = scene_.numerics.particle_volume == ParticleVolume::constant;
             const double density = constant ? scene_.fluid.density : fluid_.density[i];
-            fluid_.volume[i] = scene_.numerics.particle_volume == ParticleVolume::number_density
-                                   ? 1 / sum
-                                   : fluid_.mass / density;
+            fluid_.number_density_volume[i] =
+                scene_.numerics.particle_volume == ParticleVolume::number_density ? 1 / sum
+                                                                                  : fluid_.mass / density;
         }
     }
 
@@ -66,7 +67,7 @@ class AllPairs {
                     weight += w;
                     velocity += velocity_of(f) * w;
                     pressure += fluid_.pressure[f] * w;
-                    lever += fluid_.mass / fluid_.volume[f] * w * r;
+                    lever += fluid_.mass / fluid_.number_density_volume[f] * w * r;
                 }
             });
             const double inverse = weight > 0 ? 1 / weight : 0;
@@ -340,7 +341,7 @@ class AllPairs {
                                                                            : fluid_.mass / volume(j);
     }
     [[nodiscard]] double volume(std::size_t j) const {
-        return is_fluid(j) ? fluid_.volume[j] : dummies_.volume[j - fluid_.size()];
+        return is_fluid(j) ? fluid_.number_density_volume[j] : dummies_.volume[j - fluid_.size()];
     }
     [[nodiscard]] double pressure(std::size_t j) const {
         return is_fluid(j) ? fluid_.pressure[j] : dummies_.pressure[j - fluid_.size()];

@@ -109,7 +109,7 @@ Lists listed(const PeriodicRows& rows, const NeighbourList& list, int width, std
     const auto lanes = static_cast<std::size_t>(width);
     for (std::size_t block = 0; block < list.block_count(); ++block) {
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const std::uint32_t target = list.targets(block)[lane];
+            const std::uint32_t target = list.target(block, lane);
             const std::size_t expected = first + block * lanes + lane;
             EXPECT_EQ(target, expected < last ? expected : rows.padding());
             for (std::size_t k = 0; k < list.count(block); ++k) {

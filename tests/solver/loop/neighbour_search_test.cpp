@@ -61,7 +61,7 @@ void expect_all_pairs(const Case& points, const NeighbourList& list, std::size_t
         for (std::size_t lane = 0; lane < width; ++lane) {
             const std::size_t target = points.first + block * width + lane;
             const bool exists = target < points.last;
-            ASSERT_EQ(list.targets(block)[lane], exists ? target : padding);
+            ASSERT_EQ(list.target(block, lane), exists ? target : padding);
             Indices expected = exists ? by_all_pairs(points, target) : Indices();
             longest = std::max(longest, expected.size());
             pairs += expected.size();

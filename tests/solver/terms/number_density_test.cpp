@@ -1,4 +1,5 @@
 // Particle volumes: 1 / sum W (below Eq. 2.8), or m / rho.
+#include "solver/terms/particle_volume.hpp"
 #include "tests/solver/scenes_for_tests.hpp"
 
 #include <gtest/gtest.h>
@@ -17,12 +18,13 @@ Particles with_volumes(Scene scene, ParticleVolume kind) {
 
 TEST(ParticleVolume, OfALatticeIsTheCellUpToTheWalls) {
     for (const Scene& scene : {doubly_periodic(12), flat_channel(12)}) {
-        for (const double volume : with_volumes(scene, ParticleVolume::number_density).fluid.volume) {
+        const Particles particles = with_volumes(scene, ParticleVolume::number_density);
+        for (const double volume : particles.fluid.number_density_volume) {
             EXPECT_NEAR(volume * 144, 1,
                         0.002); // sum W over a lattice with h = dx is within 0.2 % of its integral
         }
-        for (const double volume : with_volumes(scene, ParticleVolume::mass_over_density).fluid.volume) {
-            EXPECT_NEAR(volume * 144, 1, 1e-12);
+        for (const auto kind : {ParticleVolume::mass_over_density, ParticleVolume::constant}) {
+            EXPECT_NEAR(particle_volume(particles.fluid, 0, kind, scene.fluid.density) * 144, 1, 1e-12);
         }
     }
 }
@@ -49,7 +51,7 @@ TEST(ParticleVolume, ByNumberDensityIsSmallerInACluster) {
                             std::hypot(fluid.x[nearest] - centre.x(), fluid.y[nearest] - centre.y());
         nearest = nearer ? i : nearest;
     }
-    EXPECT_NEAR(fluid.volume[nearest] * 144, 0.64, 0.05);
+    EXPECT_NEAR(fluid.number_density_volume[nearest] * 144, 0.64, 0.05);
 }
 
 } // namespace
