@@ -27,8 +27,8 @@ class CheckpointTarget {
 
     testing::OwnFolder folder_;
     std::filesystem::path path_ = folder_.path() / "checkpoint.h5";
-    testing::ResumableRun run_{testing::channel_with_discs(), folder_.path() / "run"};
-    RunIdentity identity_ = run_identity(run_.scene);
+    testing::ResumableRun run_;
+    RunIdentity identity_;
     std::string good_; // bytes of the checkpoint
     StoredNames names_;
 };
