@@ -1,31 +1,19 @@
 #pragma once
-// Largest stable time step, Eq. 2.35 [wang2014], with the scene's three factors in place of 0.25.
+// Largest stable time step with discs.
 #include "solver/particles/disc.hpp"
-#include "solver/scene/scene.hpp"
+#include "solver/scene/fluid_time_step.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <span>
 
 namespace slurry {
 
-inline double largest_time_step(const Scene& scene) {
-    const Numerics& numerics = scene.numerics;
-    const double h = numerics.smoothing_length();
-    const double viscosity = scene.fluid.kinematic_viscosity();
-    const double force = scene.fluid.acceleration().norm();
-    const double unlimited = std::numeric_limits<double>::infinity();
-    return std::min({numerics.acoustic_cfl * h / numerics.sound_speed,
-                     viscosity > 0 ? numerics.viscous_cfl * h * h / viscosity : unlimited,
-                     force > 0 ? numerics.force_cfl * std::sqrt(h / force) : unlimited});
-}
-
-// The same with discs, s. A contact of the given angular frequency (rad/s; 0: none) is resolved, and so is
-// what a disc lighter than the fluid does: coupled explicitly, its drag and the fluid's stiffness act on its
-// own small mass. The two factors are those up to which discs of 3 to 8 smoothing lengths and a hundredth to
-// a third of the fluid's density ran quietly.
+// That of Eq. 2.35 and of the discs, s. A contact of the given angular frequency (rad/s; 0: none) is
+// resolved, and so is what a disc lighter than the fluid does: coupled explicitly, its drag and the fluid's
+// stiffness act on its own small mass. The two factors are those up to which discs of 3 to 8 smoothing
+// lengths and a hundredth to a third of the fluid's density ran quietly.
 inline double largest_time_step(const Scene& scene, std::span<const Disc> discs, double contact_frequency) {
     constexpr double share_of_period = 1.0 / 12;
     constexpr double drag_factor = 0.14;

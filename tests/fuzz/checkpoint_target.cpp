@@ -48,10 +48,13 @@ CheckpointTarget::CheckpointTarget()
 
 void CheckpointTarget::operator()(std::string_view input) {
     Bytes bytes(input);
-    if (bytes.below(8) == 0) {
-        try_bytes(bytes);
-    } else {
-        try_edits(bytes);
+    switch (bytes.below(8)) {
+    case 0:
+        return try_bytes(bytes);
+    case 1:
+        return try_edits(bytes, &CheckpointTarget::read_scene);
+    default:
+        return try_edits(bytes, &CheckpointTarget::read_and_step);
     }
 }
 
@@ -68,7 +71,7 @@ void CheckpointTarget::try_bytes(Bytes bytes) {
     require(seal_fault(path_).empty() == (damaged == good_), "damage that the seal does not show");
 }
 
-void CheckpointTarget::try_edits(Bytes bytes) {
+void CheckpointTarget::try_edits(Bytes bytes, void (CheckpointTarget::*read)()) {
     write_bytes(path_, good_);
     {
         const Hdf5Silence silence;
@@ -78,7 +81,7 @@ void CheckpointTarget::try_edits(Bytes bytes) {
         }
     }
     try {
-        read_and_step();
+        (this->*read)();
     } catch (const ReadError& error) {
         const std::string message = error.what();
         require(message.starts_with(path_.string() + ": "), "a refusal without its file: " + message);
@@ -90,11 +93,14 @@ void CheckpointTarget::try_edits(Bytes bytes) {
     }
 }
 
-void CheckpointTarget::read_and_step() {
+void CheckpointTarget::read_scene() {
     try {
         static_cast<void>(read_checkpoint_scene(path_, {}));
     } catch (const SceneError&) { // the run's scene was not read from a file
     }
+}
+
+void CheckpointTarget::read_and_step() {
     ResultFile result(folder_.path() / "resumed", run_.scene, "test", true);
     PhaseClock clock;
     read_checkpoint(path_, identity_, {run_.step, run_.particles, *run_.sums, run_.contacts, result, clock});

@@ -59,7 +59,7 @@ std::optional<Scene> accepted(const std::string& text) {
 TEST(RandomFlows, KnownShortfallOfExtrapolatedContinuityWithAFreeDisc) {
     const std::string text = R"([domain]
 lower = [0, 0]
-upper = [0.16, 0.12]
+upper = [0.16, 0.16]
 periodic = "xy"
 [fluid]
 density = 1000
