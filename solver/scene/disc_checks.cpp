@@ -196,6 +196,15 @@ std::vector<std::string> check_disc_sizes(const Scene& scene, const Places& plac
                    fmt::format("at least {}: a larger radius, or a particle_spacing of at most {:.4g} (m)",
                                fewest_spacings_across, 2 * radius / fewest_spacings_across));
         }
+        if (const double ratio = scene.numerics.smoothing_ratio;
+            ratio > 1 && !(across >= fewest_spacings_across * ratio * (1 - 1e-9))) {
+            refuse(places.of("numerics.smoothing_ratio"),
+                   fmt::format("numerics.smoothing_ratio = {} with {}", ratio, found),
+                   fmt::format(
+                       "at most {:.4g}: fluid beside a disc of less than {} smoothing lengths across gets "
+                       "into it",
+                       across / fewest_spacings_across, fewest_spacings_across));
+        }
         if (!(across >= enough_spacings_across * (1 - 1e-9))) {
             warnings.push_back(fmt::format(
                 "{}: found {}, advised at least {}: a particle_spacing of at most {:.4g} (m)", places.of(key),

@@ -42,9 +42,7 @@ class Flow {
             fmt::format("[numerics]\nparticle_spacing = {}\nsound_speed = {}\n", spacing_, sound_speed_);
         for (const Parameter* parameter : parameters_of("numerics")) {
             const bool number = parameter->binding.kind == Kind::number;
-            // Known to break, see random_flows_test.cpp.
-            const bool breaks = discs_ && parameter->key == "wall_continuity";
-            if (parameter->fallback.standard && random_.chance(0.2) && !breaks &&
+            if (parameter->fallback.standard && random_.chance(0.2) &&
                 (!number || numerics_ == NumericsRange::allowed)) {
                 text += fmt::format("{} = {}\n", parameter->key, allowed_value(*parameter, random_));
             }
