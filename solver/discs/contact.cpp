@@ -1,6 +1,7 @@
 #include "solver/discs/contact.hpp"
 
 #include "solver/particles/run_error.hpp"
+#include "solver/scene/disc_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -71,9 +72,7 @@ DiscContacts::DiscContacts(const Scene& scene, const Region& region)
     : domain_(scene.domain), region_(region), contact_(scene.contact),
       stopped_speed_(scene.numerics.sound_speed / 5),
       largest_overlap_(0.5 * scene.numerics.particle_spacing) {
-    if (contact_.distance == 0) {
-        contact_.distance = 2 * scene.numerics.particle_spacing;
-    }
+    contact_.distance = contact_distance(scene);
 }
 
 // c / epsilon of Eq. 2.27. By default the work on the way from the first contact to touch is the kinetic

@@ -97,10 +97,16 @@ void fill_weighed(std::vector<DiscGroup>& groups, const Scene& scene, double are
             fill_area(group, scene, area / per_fluid * area_per_fluid(group));
 }
 
-DiscGroup start_group(const DiscScene& scene) {
+// Out of reach of the repulsion, unless said otherwise: it would throw discs apart at the start.
+double least_distance(const Scene& scene, const DiscScene& disc, const RandomDiscs& random) {
+    return random.least_distance > 0 || disc.motion != DiscMotion::free ? random.least_distance
+                                                                        : contact_distance(scene);
+}
+
+DiscGroup start_group(const Scene& all, const DiscScene& scene) {
     DiscGroup group{&scene, 0, {}, {nullptr, gsl_rng_free}};
     if (const auto* random = std::get_if<RandomDiscs>(&scene.placement)) {
-        group.least_distance = random->least_distance;
+        group.least_distance = least_distance(all, scene, *random);
         group.generator.reset(gsl_rng_alloc(gsl_rng_mt19937));
         gsl_rng_set(group.generator.get(), static_cast<unsigned long>(random->seed));
     } else {
@@ -114,7 +120,7 @@ DiscGroup start_group(const DiscScene& scene) {
 std::vector<DiscGroup> draw_groups(const Scene& scene, double area) {
     std::vector<DiscGroup> groups;
     for (const DiscScene& disc : scene.discs) {
-        DiscGroup& group = groups.emplace_back(start_group(disc));
+        DiscGroup& group = groups.emplace_back(start_group(scene, disc));
         const auto* random = std::get_if<RandomDiscs>(&disc.placement);
         if (random != nullptr && random->count > 0)
             draw_until(group, scene,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -60,14 +61,30 @@ class Neighbourhood {
     std::vector<Vector> points_;
 };
 
+// Whether a dummy prolongs its wall instead of being behind it.
+bool beyond_end(const Dummy& dummy, double spacing) {
+    const Vector offset = dummy.position - dummy.wall_point;
+    return (offset - offset.dot(dummy.normal) * dummy.normal).norm() > 1e-6 * spacing;
+}
+
+// What is behind a wall comes first: where walls meet, the prolongation of the one would leave a hole beside
+// the other for the fluid to escape through.
 std::vector<std::vector<Dummy>> curve_layers(const std::vector<Wall>& walls, double spacing, int layers) {
     std::vector<std::vector<Dummy>> result;
+    for (const Wall& wall : walls)
+        result.push_back(wall.curve_dummies(spacing, layers));
     Neighbourhood earlier;
-    for (const Wall& wall : walls) {
-        std::vector<Dummy> dummies = wall.curve_dummies(spacing, layers);
-        std::erase_if(dummies, [&](const Dummy& dummy) { return earlier.near(dummy.position, spacing / 2); });
-        earlier.add(dummies);
-        result.push_back(std::move(dummies));
+    for (const bool prolonging : {false, true}) {
+        for (std::vector<Dummy>& dummies : result) {
+            std::erase_if(dummies, [&](const Dummy& dummy) {
+                return beyond_end(dummy, spacing) == prolonging && earlier.near(dummy.position, spacing / 2);
+            });
+            std::vector<Dummy> kept;
+            std::ranges::copy_if(dummies, std::back_inserter(kept), [&](const Dummy& dummy) {
+                return beyond_end(dummy, spacing) == prolonging;
+            });
+            earlier.add(kept);
+        }
     }
     return result;
 }

@@ -39,12 +39,15 @@ void CellGrid::measure(int columns_per_cutoff) {
     double lower_y = infinity;
     double upper_x = -infinity;
     double upper_y = upper_x;
+    const double reach = problem_.cutoff * (1 + margin);
+    // Beyond it neighbouring numbers are about a cell apart, and sums of such numbers overflow.
+    const double farthest = 1e15 * reach;
     const auto& candidates = problem_.candidates;
 #pragma omp parallel for schedule(static) reduction(min : lower_x, lower_y) reduction(max : upper_x, upper_y)
     for (const auto index : candidates) {
         const double x = problem_.x[index];
         const double y = problem_.y[index];
-        if (std::isfinite(x) && std::isfinite(y)) {
+        if (std::abs(x) < farthest && std::abs(y) < farthest) { // not for NaN
             lower_x = std::min(lower_x, x);
             upper_x = std::max(upper_x, x);
             lower_y = std::min(lower_y, y);
@@ -55,7 +58,6 @@ void CellGrid::measure(int columns_per_cutoff) {
         return;
     }
     const auto count = static_cast<double>(candidates.size());
-    const double reach = problem_.cutoff * (1 + margin);
     height_ = std::max({row_height(problem_.cutoff), problem_.row_height, (upper_y - lower_y) / count});
     // Two empty rows below and above save the question whether a row exists. Rows are counted from y = 0: if
     // the points come in strips counted from there, what is found is in order and need not be sorted.

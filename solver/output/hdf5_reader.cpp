@@ -64,9 +64,15 @@ std::string Hdf5Reader::text(const std::string& object, const std::string& name)
     return characters == nullptr ? "" : characters;
 }
 
+Hdf5Handle Hdf5Reader::open_dataset(const std::string& path) const {
+    return require(Hdf5Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose), path);
+}
+
 std::size_t Hdf5Reader::size(const std::string& path) const {
-    const Hdf5Handle dataset =
-        require(Hdf5Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose), path);
+    return size(open_dataset(path), path);
+}
+
+std::size_t Hdf5Reader::size(const Hdf5Handle& dataset, const std::string& path) const {
     const Hdf5Handle space = require(Hdf5Handle(H5Dget_space(dataset.get()), H5Sclose), path);
     const hssize_t points = H5Sget_simple_extent_npoints(space.get());
     return points < 0 ? 0 : static_cast<std::size_t>(points);
@@ -81,8 +87,7 @@ std::vector<double> StoredTable::column(std::size_t index) const {
 }
 
 StoredTable Hdf5Reader::table(const std::string& path) const {
-    const Hdf5Handle dataset =
-        require(Hdf5Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose), path);
+    const Hdf5Handle dataset = open_dataset(path);
     const Hdf5Handle space = require(Hdf5Handle(H5Dget_space(dataset.get()), H5Sclose), path);
     std::array<hsize_t, 2> sizes{0, 1};
     const int rank = H5Sget_simple_extent_ndims(space.get());
@@ -104,12 +109,11 @@ StoredTable Hdf5Reader::table(const std::string& path) const {
 
 template <class T>
 std::vector<T> Hdf5Reader::values(const std::string& path, std::size_t count, hid_t type) const {
-    if (const std::size_t found = size(path); found != count)
+    const Hdf5Handle dataset = open_dataset(path);
+    if (const std::size_t found = size(dataset, path); found != count)
         throw ReadError(
             fmt::format("{}: found {} numbers in {}, not {}: of another run", name_, found, path, count));
     std::vector<T> values(count);
-    const Hdf5Handle dataset =
-        require(Hdf5Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose), path);
     require(H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
     return values;
 }

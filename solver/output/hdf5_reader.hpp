@@ -48,6 +48,8 @@ class Hdf5Reader {
   private:
     template <class Result> Result require(Result result, const std::string& part) const;
     [[nodiscard]] Hdf5Handle open_attribute(const std::string& object, const std::string& name) const;
+    [[nodiscard]] Hdf5Handle open_dataset(const std::string& path) const;
+    [[nodiscard]] std::size_t size(const Hdf5Handle& dataset, const std::string& path) const;
     template <class T> std::vector<T> values(const std::string& path, std::size_t size, hid_t type) const;
 
     Hdf5Silence silence_;

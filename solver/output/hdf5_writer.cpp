@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -169,6 +170,12 @@ void Hdf5Writer::append(const std::string& path, std::string_view unit, std::spa
 std::size_t Hdf5Writer::rows(const std::string& path) const {
     const auto found = tables_.find(path);
     return found == tables_.end() ? 0 : found->second.rows;
+}
+
+std::vector<std::string> Hdf5Writer::tables() const {
+    std::vector<std::string> paths;
+    std::ranges::transform(tables_, std::back_inserter(paths), [](const auto& entry) { return entry.first; });
+    return paths;
 }
 
 bool Hdf5Writer::has(const std::string& path) const {

@@ -38,6 +38,8 @@ class Hdf5Writer {
     void append(const std::string& path, std::string_view unit, std::span<const double> row);
     // Rows of a table so far.
     [[nodiscard]] std::size_t rows(const std::string& path) const;
+    // The paths of all tables.
+    [[nodiscard]] std::vector<std::string> tables() const;
 
     [[nodiscard]] bool has(const std::string& path) const;
     void remove(const std::string& path);

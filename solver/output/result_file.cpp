@@ -49,6 +49,7 @@ struct ResultFile::Implementation {
     Hdf5Writer writer; // destroyed before the file it writes to
     std::vector<XdmfSnapshot> snapshots;
     XdmfSnapshot unfinished{}; // of them when it has ended
+    std::string checkpoint; // that the run goes on from; empty for a run from the start
 
     Implementation(const std::filesystem::path& target, const Scene& scene)
         : title(scene.title), probes(scene.probes), partial(target), writer(partial.path()) {}
@@ -66,9 +67,29 @@ struct ResultFile::Implementation {
         writer.write(path, unit, values);
     }
     std::filesystem::path finish_as(const std::string& stem);
-    void require_as_many_rows_as_times(const std::string& group, const std::string& path) const {
-        if (writer.rows(path) != writer.rows(group + "/time"))
-            throw std::logic_error(path + ": needs one row for each time");
+    // Appends to a table of the group, whose `time` has been appended to before.
+    template <class Row>
+    void append(const std::string& group, std::string_view quantity, std::string_view unit, const Row& row) {
+        const std::string path = fmt::format("{}/{}", group, quantity);
+        try {
+            writer.append(path, unit, row);
+        } catch (const std::logic_error& misuse) {
+            misfit(misuse.what());
+        }
+        require_as_many_rows_as_times(path);
+    }
+    void require_as_many_rows_as_times(const std::string& path) const {
+        if (writer.rows(path) != writer.rows(path.substr(0, path.rfind('/')) + "/time"))
+            misfit(path + ": needs one row for each time");
+    }
+    // A fault of the program's, unless a checkpoint brought the tables: it may hold anything.
+    [[noreturn]] void misfit(const std::string& what) const {
+        if (checkpoint.empty())
+            throw std::logic_error(what);
+        throw ReadError(
+            fmt::format("{}: what it recorded is not of this run: {}; start the run again without "
+                        "--resume",
+                        checkpoint, what));
     }
 };
 
@@ -87,30 +108,26 @@ ResultFile::~ResultFile() = default;
 
 void ResultFile::begin_sample(double time) {
     implementation_->writer.flush(); // a full disk ends the run now, not when all is computed
-    implementation_->writer.append("/series/time", "s", time);
+    implementation_->append("/series", "time", "s", time);
 }
 
 void ResultFile::add_sample(std::string_view name, std::string_view unit, double value) {
-    const std::string path = fmt::format("/series/{}", name);
-    implementation_->writer.append(path, unit, value);
-    implementation_->require_as_many_rows_as_times("/series", path);
+    implementation_->append("/series", name, unit, value);
 }
 
 void ResultFile::begin_probe_sample(std::string_view probe, double time) {
-    implementation_->writer.append(fmt::format("/probes/{}/time", probe), "s", time);
+    implementation_->append(fmt::format("/probes/{}", probe), "time", "s", time);
 }
 
 void ResultFile::add_probe_row(std::string_view probe, std::string_view quantity, std::string_view unit,
                                std::span<const double> row) {
     const std::string group = fmt::format("/probes/{}", probe);
-    const std::string path = fmt::format("{}/{}", group, quantity);
     if (!implementation_->is_point(probe))
-        implementation_->writer.append(path, unit, row);
+        implementation_->append(group, quantity, unit, row);
     else if (row.size() == 1)
-        implementation_->writer.append(path, unit, row.front());
+        implementation_->append(group, quantity, unit, row.front());
     else
-        throw std::logic_error(path + ": a point has one value");
-    implementation_->require_as_many_rows_as_times(group, path);
+        throw std::logic_error(fmt::format("{}/{}: a point has one value", group, quantity));
 }
 
 void ResultFile::add_probe_constant(std::string_view probe, std::string_view quantity, std::string_view unit,
@@ -119,13 +136,11 @@ void ResultFile::add_probe_constant(std::string_view probe, std::string_view qua
 }
 
 void ResultFile::begin_disc_sample(double time) {
-    implementation_->writer.append("/discs/time", "s", time);
+    implementation_->append("/discs", "time", "s", time);
 }
 
 void ResultFile::add_disc_row(std::string_view quantity, std::string_view unit, std::span<const double> row) {
-    const std::string path = fmt::format("/discs/{}", quantity);
-    implementation_->writer.append(path, unit, row);
-    implementation_->require_as_many_rows_as_times("/discs", path);
+    implementation_->append("/discs", quantity, unit, row);
 }
 
 void ResultFile::add_disc_constant(std::string_view quantity, std::string_view unit,
@@ -183,6 +198,7 @@ void ResultFile::copy_to(Hdf5Writer& checkpoint) {
 }
 
 void ResultFile::restore(const Hdf5Reader& checkpoint) {
+    implementation_->checkpoint = checkpoint.name();
     implementation_->partial.require_space(std::filesystem::file_size(checkpoint.name()));
     Hdf5Writer& writer = implementation_->writer;
     for (const std::string group : groups) {
@@ -191,6 +207,8 @@ void ResultFile::restore(const Hdf5Reader& checkpoint) {
         if (checkpoint.has("/result" + group))
             writer.copy(checkpoint.file(), "/result" + group, group);
     }
+    for (const std::string& path : writer.tables())
+        implementation_->require_as_many_rows_as_times(path);
     auto& snapshots = implementation_->snapshots;
     for (std::string group; checkpoint.has("/result" + (group = snapshot_group(snapshots.size())));)
         snapshots.push_back({group, checkpoint.number("/result" + group, "time"),

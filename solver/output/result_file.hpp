@@ -62,7 +62,8 @@ class ResultFile {
     // A number about the run: attribute of /run (fluid_particles, steps, wall_seconds, threads, ...).
     void set_attribute(std::string_view name, double value);
 
-    // Copies all that was recorded into the group /result of a checkpoint, and goes on from there.
+    // Copies all that was recorded into the group /result of a checkpoint, and goes on from there: restore(),
+    // and whatever is added after it, throw ReadError when the checkpoint's tables are not such as these.
     [[nodiscard]] std::uintmax_t size() const; // bytes, until now
     void copy_to(Hdf5Writer& checkpoint);
     void restore(const Hdf5Reader& checkpoint);

@@ -2,6 +2,7 @@
 
 #include "solver/scene/disc_checks.hpp"
 #include "solver/scene/refusal.hpp"
+#include "solver/scene/stability_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -194,6 +195,7 @@ void check_scene(const Scene& scene, const Places& places) {
     }
     check_times(scene.output, places);
     check_sizes(scene, places);
+    check_stability(scene, places);
 }
 
 } // namespace slurry

@@ -24,7 +24,7 @@ class Places {
 // Throws SceneError: names used twice, probes of unknown walls or outside the domain, a domain turned inside
 // out, lines that are points, sides that do not fit the shape, times beyond the end, sizes that no machine
 // should try, gravity along a periodic axis, no fluid where there has to be some, and what check_discs
-// refuses.
+// and check_stability refuse.
 void check_scene(const Scene& scene, const Places& places);
 
 } // namespace slurry

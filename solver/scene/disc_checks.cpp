@@ -3,7 +3,9 @@
 #include "solver/scene/refusal.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 #include <string_view>
 
 namespace slurry {
@@ -121,7 +123,38 @@ std::pair<double, std::string> smallest_radius(const DiscScene& disc) {
     return {random->radius * least, address(disc, "radius")};
 }
 
+// Repulsion that begins at the distance d and is F at touch throws two discs of mass m that start with a gap
+// g apart at the relative speed u (1 - g / d)^(3/2), where u^2 = 4 F d / (3 m); by default u is a fifth of
+// the sound speed (Eq. 2.27).
+void check_start_distance(const Scene& scene, const DiscScene& disc, double radius, const Places& places) {
+    const auto* random = std::get_if<RandomDiscs>(&disc.placement);
+    const bool thrown = disc.motion == DiscMotion::free && scene.start.arrangement != Arrangement::empty;
+    if (random == nullptr || !thrown || random->least_distance == 0) {
+        return;
+    }
+    const double distance = contact_distance(scene);
+    const double mass = disc.density * std::numbers::pi * radius * radius;
+    const Contact& contact = scene.contact;
+    const double touch_speed = contact.force_scale > 0
+                                   ? std::sqrt(4 * contact.force_scale * distance / (3 * mass))
+                                   : scene.numerics.sound_speed / 5;
+    const double most = 0.1 * scene.numerics.sound_speed * std::sqrt(contact.stiffness) / touch_speed;
+    const double least = distance * (1 - std::pow(most, 2.0 / 3));
+    if (!(random->least_distance >= least)) {
+        refuse(places.of(address(disc, "least_distance")),
+               fmt::format("{} = {}", address(disc, "least_distance"), random->least_distance),
+               fmt::format(
+                   "at least {:.4g} (m), or 0 for contact.distance: discs that start nearer are thrown apart "
+                   "faster than a tenth of numerics.sound_speed",
+                   least));
+    }
+}
+
 } // namespace
+
+double contact_distance(const Scene& scene) {
+    return scene.contact.distance > 0 ? scene.contact.distance : 2 * scene.numerics.particle_spacing;
+}
 
 void check_disc_count(const Scene& scene, double count, const std::string& place) {
     constexpr double values_per_disc = 11; // of a sample
@@ -154,6 +187,7 @@ std::vector<std::string> check_disc_sizes(const Scene& scene, const Places& plac
     std::vector<std::string> warnings;
     for (const DiscScene& disc : scene.discs) {
         const auto [radius, key] = smallest_radius(disc);
+        check_start_distance(scene, disc, radius, places);
         const double across = 2 * radius / scene.numerics.particle_spacing;
         const std::string found = fmt::format(
             "a disc \"{}\" of radius {:.4g} (m), {:.3g} particle spacings across", disc.name, radius, across);
@@ -161,6 +195,15 @@ std::vector<std::string> check_disc_sizes(const Scene& scene, const Places& plac
             refuse(places.of(key), found,
                    fmt::format("at least {}: a larger radius, or a particle_spacing of at most {:.4g} (m)",
                                fewest_spacings_across, 2 * radius / fewest_spacings_across));
+        }
+        if (const double ratio = scene.numerics.smoothing_ratio;
+            ratio > 1 && !(across >= fewest_spacings_across * ratio * (1 - 1e-9))) {
+            refuse(places.of("numerics.smoothing_ratio"),
+                   fmt::format("numerics.smoothing_ratio = {} with {}", ratio, found),
+                   fmt::format(
+                       "at most {:.4g}: fluid beside a disc of less than {} smoothing lengths across gets "
+                       "into it",
+                       across / fewest_spacings_across, fewest_spacings_across));
         }
         if (!(across >= enough_spacings_across * (1 - 1e-9))) {
             warnings.push_back(fmt::format(

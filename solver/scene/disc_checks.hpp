@@ -10,6 +10,9 @@ namespace slurry {
 // A disc of fewer particle spacings across is refused.
 inline constexpr double fewest_spacings_across = 3;
 
+// Between rims where repulsion begins, m.
+[[nodiscard]] double contact_distance(const Scene& scene);
+
 // Throws SceneError when so many discs, or the samples of so many, exceed scene.limits.
 void check_disc_count(const Scene& scene, double count, const std::string& place);
 
@@ -19,8 +22,8 @@ void check_disc_count(const Scene& scene, double count, const std::string& place
 void check_discs(const Scene& scene, const Places& places);
 
 // Warns of discs of few particle spacings across, one line each, and throws SceneError when there are too few
-// of them. For scenes whose files are loaded; the radii of a lognormal distribution are only known when
-// drawn.
+// of them, or when random discs may start so near that their repulsion throws them apart. For scenes whose
+// files are loaded; the radii of a lognormal distribution are only known when drawn.
 [[nodiscard]] std::vector<std::string> check_disc_sizes(const Scene& scene, const Places& places);
 
 } // namespace slurry

@@ -237,7 +237,8 @@ const std::vector<Parameter> parameter_table{
     {"discs", "random", "file", member(&RandomDiscs::file), "", word(""), anything(),
      "CSV of one column of radii in m to draw from, # before a comment; relative to the scene's folder"},
     {"discs", "random", "least_distance", member(&RandomDiscs::least_distance), "m", 0.0, at_least(0),
-     "at the start, between the rim of a disc and those of others and walls"},
+     "at the start, between the rim of a disc and those of others and walls; 0: contact.distance for free "
+     "discs, none for others"},
     {"discs", "random", "seed", member(&RandomDiscs::seed), "", std::int64_t{1}, at_least(0),
      "of the random places and radii"},
 

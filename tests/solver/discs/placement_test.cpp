@@ -225,6 +225,7 @@ TEST(RandomDiscs, AreRefusedWhereTheyCannotFit) {
     RandomDiscs random;
     random.area_fraction = 0.7;
     random.radius = 0.04;
+    random.least_distance = 1e-6;
     scene.discs = {random_discs("grain", random)};
     const std::string crowded = refusal(scene);
     for (const char* part : {"discs 'grain': ", " of 139 random discs have a place after 239000 tries",

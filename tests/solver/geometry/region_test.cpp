@@ -129,6 +129,29 @@ TEST(Region, BoxWithACurvedFloorIsClosed) {
             EXPECT_LT(region.distance(dummy.position), 0);
 }
 
+// Where the fluid touches a wall there are dummies behind it, wherever in their rows another wall begins.
+TEST(Region, CurveDummiesLeaveNoHoleWhereWallsMeet) {
+    const double spacing = 0.02;
+    for (int tenth = 0; tenth < 10; ++tenth) {
+        Scene box = closed_box(2, 1, spacing);
+        const double mean = 0.3 + 0.1 * tenth * spacing;
+        box.walls[0] = make_wall("floor", CosineShape{mean, 0.05, 1.3, 0.4}, FluidSide::above);
+        const Region region(box);
+        const auto dummies = region.dummies(DummyLayout::curve, spacing, 3);
+        for (const double x : {0.0, 2.0}) {
+            const double floor = mean + 0.05 * std::cos(2 * pi * (x - 0.4) / 1.3);
+            for (double y = floor; y < floor + 5 * spacing; y += 0.05 * spacing) {
+                const Vector behind(x + (x > 0 ? 0.5 : -0.5) * spacing, y);
+                double nearest = 1;
+                for (const auto& wall : dummies)
+                    for (const Dummy& dummy : wall)
+                        nearest = std::min(nearest, (dummy.position - behind).norm());
+                EXPECT_LE(nearest, 0.52 * spacing) << "floor " << mean << ", " << behind.transpose();
+            }
+        }
+    }
+}
+
 TEST(Region, UprightChannelPeriodicAlongY) {
     Scene scene = make_scene({{0, 0}, {1, 2}, {false, true}},
                              {make_wall("left", LineShape{{0, 2}, {0, 0}}, FluidSide::right),

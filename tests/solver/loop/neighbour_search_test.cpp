@@ -197,6 +197,23 @@ TEST(NeighbourSearches, PointsThatAreNotFiniteHaveNoNeighbours) {
     expect_all_pairs_by_every_search(points);
 }
 
+TEST(NeighbourSearches, OfPointsAsFarAwayAsNumbersGo) {
+    constexpr double most = std::numeric_limits<double>::max();
+    for (const double far : {1e17, 1e160, 1e300, most}) {
+        Case points = random_points(60, 0.5, 0.5);
+        for (int k = 0; k < 3; ++k) {
+            points.add(far, -far);
+            points.add(-far, 0.1);
+            points.add(0.1, far);
+        }
+        expect_all_pairs_by_every_search(std::move(points).everyone());
+        Case alone;
+        alone.add(far, far);
+        alone.add(-far, -far);
+        expect_all_pairs_by_every_search(std::move(alone).everyone());
+    }
+}
+
 TEST(NeighbourSearches, OfParticlesWithPeriodicCopiesAndMovedTargets) {
     const Case start = random_points(400, 1, 1);
     Particles particles;

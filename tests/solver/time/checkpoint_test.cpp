@@ -170,5 +170,48 @@ TEST_F(Checkpoint, WithParticlesThatAreNoPermutationIsRefused) {
     }
 }
 
+// A table of what was recorded, changed as a program that is not ours could; `sizes` empty takes it away.
+void reshape(const std::filesystem::path& path, const char* table, const std::vector<hsize_t>& sizes) {
+    const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    ASSERT_GE(H5Ldelete(file.get(), table, H5P_DEFAULT), 0);
+    if (sizes.empty()) {
+        return;
+    }
+    std::vector<hsize_t> most = sizes;
+    most.front() = H5S_UNLIMITED;
+    const auto rank = static_cast<int>(sizes.size());
+    const Hdf5Handle space(H5Screate_simple(rank, sizes.data(), most.data()), H5Sclose);
+    const Hdf5Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    ASSERT_GE(H5Pset_chunk(layout.get(), rank, sizes.data()), 0);
+    const Hdf5Handle dataset(
+        H5Dcreate2(file.get(), table, H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
+        H5Dclose);
+    ASSERT_GE(dataset.get(), 0);
+}
+
+TEST_F(Checkpoint, WhoseTablesDoNotFitIsRefused) {
+    const Scene scene = without_walls();
+    const auto expect_refusal = [&](const char* table, const std::vector<hsize_t>& sizes,
+                                    long resumed_until) {
+        SCOPED_TRACE(table);
+        run_through(scene);
+        reshape(path_, table, sizes);
+        ResumableRun resumed(scene, folder_.path() / "resumed");
+        try {
+            read_checkpoint(path_, run_identity(scene), resumed.state);
+            EXPECT_EQ(resumed.step, resumed_until - 1) << "taken, but not before its next sample";
+            resumed.go_to(resumed_until);
+            FAIL();
+        } catch (const ReadError& error) {
+            EXPECT_NE(std::string(error.what()).find(path_.string() + ": "), std::string::npos);
+            EXPECT_NE(std::string(error.what()).find("/series/"), std::string::npos) << error.what();
+        }
+    };
+    expect_refusal("/result/series/kinetic_energy", {3}, 0);
+    expect_refusal("/result/series/time", {}, 0);
+    expect_refusal("/result/series/kinetic_energy", {middle, 2}, middle + 1);
+    expect_refusal("/result/series/kinetic_energy", {}, middle + 1);
+}
+
 } // namespace
 } // namespace slurry::testing

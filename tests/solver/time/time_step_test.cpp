@@ -52,7 +52,16 @@ TEST(TimeStep, IsShorterForStiffContactsAndLightDiscs) {
     EXPECT_DOUBLE_EQ(largest_time_step(scene, disc_of(1), 1e4), 2 * std::numbers::pi / 12e4);
     EXPECT_DOUBLE_EQ(largest_time_step(scene, disc_of(0.005), 0), std::sqrt(0.025) * 0.12 / 10); // stiffness
     scene.fluid.dynamic_viscosity = 1e4;
-    EXPECT_DOUBLE_EQ(largest_time_step(scene, disc_of(0.01), 0), 0.14 * 0.05 * 0.12 * 0.12 / 10); // drag
+    const double drag = 0.14 * 0.05 / (1 + 0.19 * 0.05);
+    EXPECT_DOUBLE_EQ(largest_time_step(scene, disc_of(0.01), 0), drag * 0.12 * 0.12 / 10);
+    scene.numerics.viscous_cfl =
+        0.4; // a disc of the fluid's density and 2.5 smoothing lengths diverges with it
+    auto small = disc_of(1);
+    small[0].radius = 0.3;
+    small[0].mass = scene.fluid.density * small[0].area();
+    EXPECT_LT(largest_time_step(scene, small, 0), 0.85 / (1.1 + 5.7 / 2.5) * 0.12 * 0.12 / 10);
+    small[0].mass *= 100;
+    EXPECT_EQ(largest_time_step(scene, small, 0), largest_time_step(scene));
     auto held = disc_of(0.01);
     held[0].motion = DiscMotion::fixed;
     EXPECT_EQ(largest_time_step(scene, held, 0), largest_time_step(scene));

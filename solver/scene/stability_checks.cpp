@@ -1,0 +1,108 @@
+#include "solver/scene/stability_checks.hpp"
+
+#include "solver/scene/fluid_time_step.hpp"
+#include "solver/scene/refusal.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace slurry {
+namespace {
+
+// Limits for particles one smoothing length apart. Of sound and viscosity: linear stability of the scheme. Of
+// the transport velocity: the stiffest displacement of a lattice (see relax() in arrangement.cpp). Of the
+// density diffusion: a jittered Couette flow runs with 0.45 and diverges with 0.6. Of extrapolated velocities
+// in the continuity equation: a light disc, the wang2014 scheme's time step; walls alone took 0.6.
+constexpr double largest_acoustic = 2.3;      // c dt / h
+constexpr double largest_viscous = 0.5;       // nu dt / h^2
+constexpr double largest_shift = 1.38;        // p_b / (rho0 c^2) (c dt / h)^2
+constexpr double largest_diffusion = 0.5;     // delta c dt / h
+constexpr double largest_extrapolated = 0.25; // c dt / h
+
+void check_extrapolation(const Scene& scene, double acoustic, const Places& places) {
+    const bool solids = !scene.walls.empty() || !scene.discs.empty();
+    if (solids && scene.numerics.wall_continuity == WallContinuity::extrapolated &&
+        !(acoustic <= largest_extrapolated * (1 + 1e-9))) {
+        refuse(places.of("numerics.wall_continuity"),
+               fmt::format("numerics.wall_continuity = \"extrapolated\" with a time step of {:.3g} h / c",
+                           acoustic),
+               fmt::format("\"solenoidal\" or \"wall_velocity\", or a numerics.acoustic_cfl of at most {}",
+                           largest_extrapolated));
+    }
+}
+
+void check_time_step(const Scene& scene, const Places& places) {
+    const Numerics& numerics = scene.numerics;
+    const double h = numerics.smoothing_length();
+    const double step = largest_time_step(scene);
+    const double acoustic = numerics.sound_speed * step / h;
+    const double viscous = scene.fluid.kinematic_viscosity() * step / (h * h);
+    if (!(acoustic < largest_acoustic)) {
+        refuse(places.of("numerics.acoustic_cfl"),
+               fmt::format("numerics.acoustic_cfl = {}, a time step of {:.3g} h / c", numerics.acoustic_cfl,
+                           acoustic),
+               fmt::format("less than {}, where sound grows without end", largest_acoustic));
+    }
+    if (!(viscous < largest_viscous)) {
+        refuse(places.of("numerics.viscous_cfl"),
+               fmt::format("numerics.viscous_cfl = {}, a time step of {:.3g} h^2 / nu", numerics.viscous_cfl,
+                           viscous),
+               fmt::format("less than {}, where viscosity makes every disturbance grow", largest_viscous));
+    }
+    check_extrapolation(scene, acoustic, places);
+    const auto check_with_sound = [&](const char* key, double value, double most, const char* reason) {
+        if (!(value < most)) {
+            refuse(places.of(key),
+                   fmt::format("{} = {} with a time step of {:.3g} h / c", key, value, acoustic),
+                   fmt::format("less than {:.3g}, or a smaller numerics.acoustic_cfl: {}", most, reason));
+        }
+    };
+    check_with_sound("numerics.background_pressure_ratio", numerics.background_pressure_ratio,
+                     largest_shift / (acoustic * acoustic),
+                     "the transport velocity would move particles past each other");
+    check_with_sound("numerics.density_diffusion", numerics.density_diffusion, largest_diffusion / acoustic,
+                     "the density would swing from step to step");
+}
+
+// The vortices' period is the domain's width along both axes.
+void check_vortices(const Scene& scene, const Places& places) {
+    if (scene.start.velocity != InitialVelocity::taylor_green || !scene.domain.periodic[1]) {
+        return;
+    }
+    const Vector size = scene.domain.size();
+    const double periods = size.y() / size.x();
+    if (std::round(periods) < 1 || std::abs(periods - std::round(periods)) > 1e-6) {
+        refuse(places.of("start.velocity"),
+               fmt::format("\"taylor_green\" in a domain of {:.4g} x {:.4g} (m) that is periodic along y",
+                           size.x(), size.y()),
+               "a height that is a whole multiple of the width, or the velocity jumps across the upper side");
+    }
+}
+
+// A body that starts at a speed U in fluid at rest compresses what is in its way by U / c.
+void check_disc_speeds(const Scene& scene, const Places& places) {
+    const double most = 0.1 * scene.numerics.sound_speed + std::abs(scene.start.speed);
+    for (const DiscScene& disc : scene.discs) {
+        if (const double speed = disc.velocity.norm(); !(speed <= most * (1 + 1e-9))) {
+            refuse(
+                places.of("discs." + disc.name + ".velocity"),
+                fmt::format("a disc \"{}\" that starts at {:.4g} (m/s)", disc.name, speed),
+                fmt::format("at most {:.4g}, a tenth of numerics.sound_speed beyond start.speed: the start "
+                            "compresses the fluid in its way",
+                            most));
+        }
+    }
+}
+
+} // namespace
+
+void check_stability(const Scene& scene, const Places& places) {
+    if (scene.start.arrangement == Arrangement::empty) {
+        return;
+    }
+    check_time_step(scene, places);
+    check_vortices(scene, places);
+    check_disc_speeds(scene, places);
+}
+
+} // namespace slurry

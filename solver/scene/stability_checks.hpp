@@ -1,0 +1,12 @@
+#pragma once
+// Numerics that cannot end well, whatever the flow.
+#include "solver/scene/checks.hpp"
+
+namespace slurry {
+
+// Throws SceneError where the time step (Eq. 2.35) is beyond the limit of the explicit scheme for sound,
+// viscosity, density diffusion or the transport velocity, vortices do not fit into their periodic domain, or
+// a disc starts so fast that the fluid in its way is compressed beyond what the watchdog lets pass.
+void check_stability(const Scene& scene, const Places& places);
+
+} // namespace slurry

@@ -1,0 +1,90 @@
+#include "solver/scene/stability_checks.hpp"
+
+#include "tests/solver/scene/scene_folder.hpp"
+
+namespace slurry::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+struct Unstable {
+    Words settings;     // of which the last one takes it beyond the limit
+    std::string stable; // in its place
+    std::string place, found, allowed;
+};
+
+class UnstableScene : public SceneFolder, public ::testing::WithParamInterface<Unstable> {};
+
+TEST_P(UnstableScene, IsRefusedAndItsNeighbourIsNot) {
+    const Unstable& unstable = GetParam();
+    const std::string message = refusal(full_scene, unstable.settings);
+    for (const std::string& part :
+         {unstable.place, "found " + unstable.found, "allowed " + unstable.allowed}) {
+        EXPECT_NE(message.find(part), std::string::npos) << part << "\nis not in\n" << message;
+    }
+    Words settings = unstable.settings;
+    settings.back() = unstable.stable;
+    EXPECT_TRUE(refusal(full_scene, settings).starts_with("ACCEPTED")) << refusal(full_scene, settings);
+    settings = unstable.settings;
+    settings.emplace_back("start.arrangement=\"empty\"");
+    settings.insert(settings.end(), {"start.velocity=\"rest\"", "start.speed=0"});
+    EXPECT_TRUE(refusal(full_scene, settings).starts_with("ACCEPTED")) << "without fluid all is stable";
+}
+
+// full_scene: h = 0.1 m, c = 10 m/s, nu = 1e-6 m2/s, a shear of 1 m/s.
+INSTANTIATE_TEST_SUITE_P(
+    Each, UnstableScene,
+    ::testing::Values(
+        Unstable{{"numerics.background_pressure_ratio=0", "numerics.acoustic_cfl=2.31"},
+                 "numerics.acoustic_cfl=2.29",
+                 "numerics.acoustic_cfl",
+                 "numerics.acoustic_cfl = 2.31, a time step of 2.31 h / c",
+                 "less than 2.3"},
+        Unstable{{"fluid.dynamic_viscosity=1e4", "numerics.viscous_cfl=0.5"},
+                 "numerics.viscous_cfl=0.49",
+                 "numerics.viscous_cfl",
+                 "numerics.viscous_cfl = 0.5, a time step of 0.5 h^2 / nu",
+                 "less than 0.5"},
+        Unstable{{"numerics.background_pressure_ratio=2.5"},
+                 "numerics.background_pressure_ratio=2.4",
+                 "numerics.background_pressure_ratio",
+                 "numerics.background_pressure_ratio = 2.5 with a time step of 0.75 h / c",
+                 "less than 2.45, or a smaller numerics.acoustic_cfl"},
+        Unstable{{"numerics.density_diffusion=0.7"},
+                 "numerics.density_diffusion=0.6",
+                 "numerics.density_diffusion",
+                 "numerics.density_diffusion = 0.7 with a time step of 0.75 h / c",
+                 "less than 0.667, or a smaller numerics.acoustic_cfl"},
+        Unstable{{"numerics.wall_continuity=\"extrapolated\"", "numerics.acoustic_cfl=0.26"},
+                 "numerics.acoustic_cfl=0.25",
+                 "numerics.wall_continuity",
+                 "numerics.wall_continuity = \"extrapolated\" with a time step of 0.26 h / c",
+                 "\"solenoidal\" or \"wall_velocity\", or a numerics.acoustic_cfl of at most 0.25"},
+        Unstable{{"domain.periodic=\"xy\"", "start.velocity=\"taylor_green\"", "domain.upper=[4, 6]"},
+                 "domain.upper=[4, 8]",
+                 "start.velocity",
+                 "\"taylor_green\" in a domain of 4 x 6 (m) that is periodic along y",
+                 "a height that is a whole multiple of the width"},
+        Unstable{{"discs.single.velocity=[0, 2.1]"},
+                 "discs.single.velocity=[0, -2]",
+                 "discs.single.velocity",
+                 "a disc \"single\" that starts at 2.1 (m/s)",
+                 "at most 2, a tenth of numerics.sound_speed beyond start.speed"}));
+
+// Of Eq. 2.27: from 0.37 of the contact distance on, discs get no faster than half of what stops at touch.
+TEST_F(SceneFolder, RandomDiscsThatWouldBeThrownApartAreRefused) {
+    const auto with = [&](const Words& settings) { return refusal(full_scene, settings); };
+    EXPECT_NE(with({"discs.random.least_distance=0.07"})
+                  .find("found discs.random.least_distance = 0.07, allowed at least 0.07401 (m), or 0"),
+              std::string::npos)
+        << with({"discs.random.least_distance=0.07"});
+    EXPECT_TRUE(with({"discs.random.least_distance=0.075"}).starts_with("ACCEPTED"));
+    EXPECT_TRUE(with({"discs.random.least_distance=0"}).starts_with("ACCEPTED"));
+    for (const char* harmless : {"contact.distance=0.1", "contact.stiffness=4", "contact.force_scale=1e3",
+                                 "discs.random.motion=\"fixed\""}) {
+        EXPECT_TRUE(with({"discs.random.least_distance=0.07", harmless}).starts_with("ACCEPTED")) << harmless;
+    }
+}
+
+} // namespace
+} // namespace slurry::test
