@@ -173,7 +173,8 @@ typename T::PlainObject operator*(MutantFactor factor, const T& value) {
     return static_cast<double>(factor.value) * value;
 }
 template <class T> // packs
-requires(!std::is_arithmetic_v<T> && !requires { typename T::PlainObject; } && requires(T value) { T(1.F * value); })
+requires(!std::is_arithmetic_v<T> && !requires { typename T::PlainObject; } &&
+         requires(T value) { T(1.F * value); })
 T operator*(MutantFactor factor, const T& value) {
     return T(factor.value * value);
 }
