@@ -158,17 +158,17 @@ def digest_of(folder: Path) -> str:
     return hashlib.sha256(programs).hexdigest()
 
 
-def control_run(out: Path) -> Control:
+def control_run(options: argparse.Namespace) -> Control:
     """Everything with no mutant active; refuses to go on when anything is red."""
-    folder, stored = out / "build", out / "control.json"
+    folder, stored = options.out / "build", options.out / "control.json"
     digest = digest_of(folder)
     if stored.exists() and (known := Control(**json.loads(stored.read_text()))).digest == digest:
         return known
-    red, log = run_tests(folder / "slurry_tests", (), 3600, out / "source")
+    red, log = run_tests(folder / "slurry_tests", (), 3600, options.source)
     control = Control(digest, {name: int(ms) / 1000 for name, ms in PASSED.findall(log)}, {})
     for case, scheme in CASES if not red else ():
         start = time.monotonic()
-        red = red or red_check(folder / "slurry", out / "runs", case, scheme, 3600)
+        red = red or red_check(folder / "slurry", options.out / "runs", case, scheme, 3600)
         control.cases[f"{case} {scheme}"] = time.monotonic() - start
     if red:
         raise FaultError(f"red with no mutant active: {red}")
@@ -187,7 +187,7 @@ def examine(mutant: Mutant, control: Control, options: argparse.Namespace) -> st
     folder = options.out / "build"
     for group in passes(control, near(mutant.file, options.source)):
         limit = control.limit(sum(control.tests[test] for test in group))
-        if red := run_tests(folder / "slurry_tests", group, limit, options.out / "source")[0]:
+        if red := run_tests(folder / "slurry_tests", group, limit, options.source)[0]:
             return red
     for case, scheme in CASES:
         limit = control.limit(control.cases[f"{case} {scheme}"])
@@ -234,7 +234,7 @@ def parse(argv: Sequence[str] | None) -> argparse.Namespace:
 def judge_all(drawn: Sequence[Mutant], options: argparse.Namespace) -> list[dict[str, Any]]:
     (options.out / "answers").mkdir(parents=True, exist_ok=True)
     refused = plant_all(drawn, options)
-    control = control_run(options.out)
+    control = control_run(options)
     start, answers = time.monotonic(), []
     for number, mutant in enumerate(drawn):
         if mutant.name in refused:

@@ -51,7 +51,6 @@ def options(tmp_path):
         "TEST(Energy, Sum) {}\nTEST_P(Mass, Sum) {}\n"
     )
     (tmp_path / "answers").mkdir()
-    (tmp_path / "source").mkdir()
     return argparse.Namespace(
         source=source, out=tmp_path, cmake_flag=[], explained=tmp_path / "why.toml", page=tmp_path / "page.md"
     )
@@ -66,7 +65,7 @@ def test_all_are_built_at_once_and_the_survivor_is_told_from_the_caught(options,
     every = drawn()
     refused = plant_all(every, options)
     assert {m.line for m in every if m.name in refused} == {9}  # a Mass has no product
-    control = control_run(options.out)
+    control = control_run(options)
     assert control.tests == {"Energy.Sum": 0.02, "Shapes/Mass.Sum/0": 0.9}
     answers = {
         m.line: judge(m, n, control, options)
@@ -116,22 +115,22 @@ def test_a_red_unit_test_is_named(options, script, found):
 def test_nothing_is_judged_where_the_control_is_red(options, monkeypatch):
     program(options, "exit 1")
     with pytest.raises(FaultError, match="red with no mutant active: unit tests"):
-        control_run(options.out)
+        control_run(options)
     program(options, "echo '[       OK ] A.b (3 ms)'")
     monkeypatch.setattr(mutations, "red_check", lambda *_: "couette: velocity: above")
     with pytest.raises(FaultError, match="red with no mutant active: couette"):
-        control_run(options.out)
+        control_run(options)
 
 
 def test_the_control_is_made_once_for_a_program(options, monkeypatch):
     program(options, "echo '[       OK ] A.b (3 ms)'")
     monkeypatch.setattr(mutations, "red_check", lambda *_: "")
-    first = control_run(options.out)
+    first = control_run(options)
     monkeypatch.setattr(mutations, "run_tests", None)
-    assert control_run(options.out) == first
+    assert control_run(options) == first
     program(options, "exit 0")
     with pytest.raises(TypeError):
-        control_run(options.out)
+        control_run(options)
 
 
 def test_quick_tests_nearby_come_first_and_slow_ones_last(options):
