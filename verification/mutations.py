@@ -196,13 +196,17 @@ def examine(mutant: Mutant, control: Control, options: argparse.Namespace) -> st
     return ""
 
 
-def judge(mutant: Mutant, number: int, control: Control, options: argparse.Namespace) -> dict[str, Any]:
-    """The stored answer for a mutant, or a new one, stored whole or not at all."""
+def stored_answer(mutant: Mutant, control: Control, options: argparse.Namespace) -> dict[str, Any] | None:
+    """The answer of an earlier run, with the mutant where it is now; None where there is no valid one."""
     stored = options.out / "answers" / f"{mutant.name}.json"
-    if stored.exists():
-        answer = json.loads(stored.read_text()) | dataclasses.asdict(mutant)
-        if answer["outcome"] == "caught" or answer["digest"] == control.digest:
-            return answer
+    if not stored.exists():
+        return None
+    answer = json.loads(stored.read_text()) | dataclasses.asdict(mutant)
+    return answer if answer["outcome"] == "caught" or answer["digest"] == control.digest else None
+
+
+def judge(mutant: Mutant, number: int, control: Control, options: argparse.Namespace) -> dict[str, Any]:
+    """The answer for a mutant, stored whole or not at all."""
     with active(number, FACTORS[mutant.kind]):
         found = examine(mutant, control, options)
     reached = ""
@@ -211,7 +215,7 @@ def judge(mutant: Mutant, number: int, control: Control, options: argparse.Names
             reached = examine(mutant, control, options)
     answer = dataclasses.asdict(mutant) | {"digest": control.digest, "by": found, "reached": reached}
     answer["outcome"] = "caught" if found else "survived"
-    store(stored, answer)
+    store(options.out / "answers" / f"{mutant.name}.json", answer)
     return answer
 
 
@@ -235,18 +239,24 @@ def judge_all(drawn: Sequence[Mutant], options: argparse.Namespace) -> list[dict
     (options.out / "answers").mkdir(parents=True, exist_ok=True)
     refused = plant_all(drawn, options)
     control = control_run(options)
-    start, answers = time.monotonic(), []
-    for number, mutant in enumerate(drawn):
-        if mutant.name in refused:
-            answers.append(dataclasses.asdict(mutant) | {"outcome": "not built", "by": "", "reached": ""})
-        else:
-            answers.append(judge(mutant, number, control, options))
-        last = answers[-1]
-        left = (time.monotonic() - start) / (number + 1) * (len(drawn) - number - 1)
-        say = f"{last['outcome'].upper()} {mutant.name}: {last['by'] or mutant}"
-        print(f"[{number + 1}/{len(drawn)}, {left / 60:.0f} min left] {say}", flush=True)
-        write_report(answers, len(drawn), options)
-    return answers
+    answers = [
+        dataclasses.asdict(m) | {"outcome": "not built", "by": "", "reached": ""}
+        if m.name in refused
+        else stored_answer(m, control, options)
+        for m in drawn
+    ]
+    left = [number for number, answer in enumerate(answers) if answer is None]
+    start = time.monotonic()
+    for done, number in enumerate(left, 1):
+        answers[number] = judge(drawn[number], number, control, options)
+        found = [answer for answer in answers if answer is not None]
+        minutes = (time.monotonic() - start) / done * (len(left) - done) / 60
+        say = f"{answers[number]['outcome'].upper()} {drawn[number]}: {answers[number]['by']}"
+        print(f"[{len(found)}/{len(drawn)}, {minutes:.0f} min left] {say}", flush=True)
+        write_report(found, len(drawn), options)
+    found = [answer for answer in answers if answer is not None]
+    write_report(found, len(drawn), options)
+    return found
 
 
 def main(argv: Sequence[str] | None = None) -> int:

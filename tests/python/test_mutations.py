@@ -10,7 +10,7 @@ import pytest
 from verification import mutations
 from verification.faults import FaultError
 from verification.mutants import HEADER, mutants_of
-from verification.mutations import Control, active, control_run, judge, near, passes, plant_all
+from verification.mutations import Control, active, control_run, judge, near, passes, plant_all, stored_answer
 from verification.mutations_report import tally, write_report
 
 CMAKE = """cmake_minimum_required(VERSION 3.18)
@@ -160,15 +160,15 @@ def test_an_answer_is_made_once_but_a_survivor_again_for_other_tests(options, mo
 
     monkeypatch.setattr(mutations, "examine", examine)
     first, second = Control("first", {}, {}), Control("second", {}, {})
+    assert stored_answer(caught, first, options) is None
     assert judge(caught, 0, first, options)["outcome"] == "caught"
     answer = judge(survivor, 1, first, options)
     assert (answer["outcome"], answer["reached"]) == ("survived", "unit test A.b")
     assert factors == ["0:-1", "1:0", "1:nan"]
-    judge(survivor, 1, first, options)
-    judge(caught, 0, second, options)
-    assert len(factors) == 3
-    judge(survivor, 1, second, options)
-    assert len(factors) == 5
+    assert stored_answer(survivor, first, options) == answer
+    assert stored_answer(survivor, second, options) is None
+    moved = dataclasses.replace(caught, line=99)
+    assert stored_answer(moved, second, options)["line"] == 99
 
 
 def test_a_red_check_is_named(tmp_path, monkeypatch):
@@ -226,4 +226,4 @@ def test_the_command(options, monkeypatch, capsys):
     assert mutations.main(arguments) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[-1] == f"{count} of {count} caught (100 %), 0 survived, 0 do not build"
-    assert lines[0].startswith(f"[1/{count}, 0 min left] CAUGHT energy-")
+    assert lines[0].startswith(f"[1/{count}, 0 min left] CAUGHT {FILE}:")
