@@ -117,12 +117,12 @@ def passes(control: Control, suites: set[str]) -> list[list[str]]:
     for test, seconds in control.tests.items():
         nearby = suites.intersection(test.split(".")[0].split("/"))
         groups[2 if seconds > SLOW_TEST_S else 0 if nearby else 1].append(test)
-    return [group for group in groups if group]
+    return groups
 
 
 def run_tests(tests: Path, names: Sequence[str], timeout: float, source: Path) -> tuple[str, str]:
-    """The first unit test of these (none: all) that fails, or how they end, "" when all pass; and the log."""
-    command = [str(tests), "--gtest_fail_fast", *([f"--gtest_filter={':'.join(names)}"] if names else [])]
+    """The first unit test of these that fails, or how they end, "" when all pass; and the log."""
+    command = [str(tests), "--gtest_fail_fast", f"--gtest_filter={':'.join(names)}"]
     try:
         done = subprocess.run(
             command,
@@ -164,7 +164,7 @@ def control_run(options: argparse.Namespace) -> Control:
     digest = digest_of(folder)
     if stored.exists() and (known := Control(**json.loads(stored.read_text()))).digest == digest:
         return known
-    red, log = run_tests(folder / "slurry_tests", (), 3600, options.source)
+    red, log = run_tests(folder / "slurry_tests", ("*",), 3600, options.source)
     control = Control(digest, {name: int(ms) / 1000 for name, ms in PASSED.findall(log)}, {})
     for case, scheme in CASES if not red else ():
         start = time.monotonic()
@@ -182,16 +182,24 @@ def store(path: Path, content: dict[str, Any]) -> None:
     partial.replace(path)
 
 
-def examine(mutant: Mutant, control: Control, options: argparse.Namespace) -> str:
-    """What catches the active mutant; "" when nothing does."""
-    folder = options.out / "build"
-    for group in passes(control, near(mutant.file, options.source)):
+def red_of_tests(groups: Sequence[Sequence[str]], control: Control, options: argparse.Namespace) -> str:
+    for group in groups:
         limit = control.limit(sum(control.tests[test] for test in group))
-        if red := run_tests(folder / "slurry_tests", group, limit, options.source)[0]:
+        if red := run_tests(options.out / "build" / "slurry_tests", group, limit, options.source)[0]:
             return red
+    return ""
+
+
+def examine(mutant: Mutant, control: Control, options: argparse.Namespace, quick: bool) -> str:
+    """What catches the active mutant, among the quick unit tests or all the rest; "" when nothing does."""
+    groups = passes(control, near(mutant.file, options.source))
+    if quick:
+        return red_of_tests(groups[:2], control, options)
+    if red := red_of_tests(groups[2:], control, options):
+        return red
     for case, scheme in CASES:
         limit = control.limit(control.cases[f"{case} {scheme}"])
-        if red := red_check(folder / "slurry", options.out / "runs", case, scheme, limit):
+        if red := red_check(options.out / "build" / "slurry", options.out / "runs", case, scheme, limit):
             return red
     return ""
 
@@ -205,14 +213,18 @@ def stored_answer(mutant: Mutant, control: Control, options: argparse.Namespace)
     return answer if answer["outcome"] == "caught" or answer["digest"] == control.digest else None
 
 
-def judge(mutant: Mutant, number: int, control: Control, options: argparse.Namespace) -> dict[str, Any]:
-    """The answer for a mutant, stored whole or not at all."""
+def judge(
+    mutant: Mutant, number: int, control: Control, options: argparse.Namespace, quick: bool
+) -> dict[str, Any] | None:
+    """The answer for a mutant, stored whole or not at all; None when the quick tests have none."""
     with active(number, FACTORS[mutant.kind]):
-        found = examine(mutant, control, options)
+        found = examine(mutant, control, options, quick)
+    if quick and not found:
+        return None
     reached = ""
     if not found:
         with active(number, "nan"):
-            reached = examine(mutant, control, options)
+            reached = examine(mutant, control, options, True) or examine(mutant, control, options, False)
     answer = dataclasses.asdict(mutant) | {"digest": control.digest, "by": found, "reached": reached}
     answer["outcome"] = "caught" if found else "survived"
     store(options.out / "answers" / f"{mutant.name}.json", answer)
@@ -245,18 +257,18 @@ def judge_all(drawn: Sequence[Mutant], options: argparse.Namespace) -> list[dict
         else stored_answer(m, control, options)
         for m in drawn
     ]
-    left = [number for number, answer in enumerate(answers) if answer is None]
-    start = time.monotonic()
-    for done, number in enumerate(left, 1):
-        answers[number] = judge(drawn[number], number, control, options)
-        found = [answer for answer in answers if answer is not None]
-        minutes = (time.monotonic() - start) / done * (len(left) - done) / 60
-        say = f"{answers[number]['outcome'].upper()} {drawn[number]}: {answers[number]['by']}"
-        print(f"[{len(found)}/{len(drawn)}, {minutes:.0f} min left] {say}", flush=True)
-        write_report(found, len(drawn), options)
-    found = [answer for answer in answers if answer is not None]
-    write_report(found, len(drawn), options)
-    return found
+    for quick in (True, False):
+        left = [number for number, answer in enumerate(answers) if answer is None]
+        start = time.monotonic()
+        for done, number in enumerate(left, 1):
+            answers[number] = judge(drawn[number], number, control, options, quick)
+            minutes = (time.monotonic() - start) / done * (len(left) - done) / 60
+            head = f"{'quick unit tests' if quick else 'all'} {done}/{len(left)}, {minutes:.0f} min left"
+            outcome = (answers[number] or {"outcome": "not yet found"})["outcome"].upper()
+            say = f"{outcome} {drawn[number]}: {(answers[number] or {'by': ''})['by']}"
+            print(f"[{head}] {say}", flush=True)
+            write_report([answer for answer in answers if answer], len(drawn), options)
+    return [answer for answer in answers if answer]
 
 
 def main(argv: Sequence[str] | None = None) -> int:

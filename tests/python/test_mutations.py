@@ -67,14 +67,14 @@ def test_all_are_built_at_once_and_the_survivor_is_told_from_the_caught(options,
     assert {m.line for m in every if m.name in refused} == {9}  # a Mass has no product
     control = control_run(options)
     assert control.tests == {"Energy.Sum": 0.02, "Shapes/Mass.Sum/0": 0.9}
-    answers = {
-        m.line: judge(m, n, control, options)
-        for n, m in enumerate(every)
-        if m.kind == "drop" and m.name not in refused
-    }
-    assert answers[5]["by"] == "unit test Energy.Sum"
-    assert answers[7]["outcome"] == "survived"
-    assert not answers[7]["reached"]  # nothing tests what becomes of `unused`
+    number = {m.line: n for n, m in enumerate(every) if m.kind == "drop"}
+    caught = judge(every[number[5]], number[5], control, options, quick=True)
+    assert caught["by"] == "unit test Energy.Sum"
+    unused = every[number[7]], number[7], control, options
+    assert judge(*unused, quick=True) is None
+    answer = judge(*unused, quick=False)
+    assert answer["outcome"] == "survived"
+    assert not answer["reached"]  # nothing tests what becomes of it
 
 
 def test_no_mutant_no_build(options):
@@ -161,10 +161,11 @@ def test_an_answer_is_made_once_but_a_survivor_again_for_other_tests(options, mo
     monkeypatch.setattr(mutations, "examine", examine)
     first, second = Control("first", {}, {}), Control("second", {}, {})
     assert stored_answer(caught, first, options) is None
-    assert judge(caught, 0, first, options)["outcome"] == "caught"
-    answer = judge(survivor, 1, first, options)
+    assert judge(caught, 0, first, options, quick=True)["outcome"] == "caught"
+    assert judge(survivor, 1, first, options, quick=True) is None
+    answer = judge(survivor, 1, first, options, quick=False)
     assert (answer["outcome"], answer["reached"]) == ("survived", "unit test A.b")
-    assert factors == ["0:-1", "1:0", "1:nan"]
+    assert factors == ["0:-1", "1:0", "1:0", "1:nan"]
     assert stored_answer(survivor, first, options) == answer
     assert stored_answer(survivor, second, options) is None
     moved = dataclasses.replace(caught, line=99)
@@ -226,4 +227,4 @@ def test_the_command(options, monkeypatch, capsys):
     assert mutations.main(arguments) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[-1] == f"{count} of {count} caught (100 %), 0 survived, 0 do not build"
-    assert lines[0].startswith(f"[1/{count}, 0 min left] CAUGHT {FILE}:")
+    assert lines[0].startswith(f"[quick unit tests 1/{count}, 0 min left] CAUGHT {FILE}:")
