@@ -53,6 +53,21 @@ TEST(DiscContacts, ActAcrossPeriodicSidesAndOncePerPair) {
     }
 }
 
+TEST(DiscContacts, DoNotDependOnThePlaceInAPeriodicDomain) {
+    const Scene scene = dry(doubly_periodic(20), {{0.2, 0.4}, {0.2, 0.9}});
+    const Region region(scene);
+    Particles particles = arrange(scene);
+    std::vector<Disc>& discs = particles.discs;
+    const Vector offset = (2 * radius + distance / 2) * Vector(3, 4) / 5;
+    for (double moved = -2; moved < 2; moved += 0.0625) { // through the domain of width 1 and beyond
+        discs[0].position = Vector(0.2 + moved, 0.7 - 2 * moved);
+        discs[1].position = discs[0].position + offset;
+        DiscContacts(scene, region).compute(particles);
+        EXPECT_LT((discs[1].contact_force - 0.5 * offset.normalized()).norm(), 1e-9) << moved;
+        EXPECT_LT((discs[0].contact_force + discs[1].contact_force).norm(), 1e-14) << moved;
+    }
+}
+
 TEST(DiscContacts, WallsRepelAsMirrorDiscsDo) {
     for (const double gap : {0.0, 0.004, 0.009, 0.011}) {
         const auto discs = discs_with_forces(dry(flat_channel(20), {{0.2, 0.2 + radius + gap}}));
