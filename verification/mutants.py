@@ -47,7 +47,7 @@ OPERAND = re.compile(r"\w(?:[\w.:]|->)*(?:\([^()]*\)|\[\w*\])*")
 COMPUTES = re.compile(r"\s[-+*/]\s|\w\(")
 NO_PHYSICS = re.compile(
     r"\b(?:constexpr|using|template|static_assert|for|while|namespace|struct|throw|static_cast<std::|auto"
-    r"|size_t|ptrdiff_t|int|bool|string|begin|count|optional|first_coefficient|move|push_back|resize"
+    r"|size_t|ptrdiff_t|int|bool|string|begin|count|std::array|bytes|optional|first_coefficient|move|push_back|resize"
     r"|numeric_limits|Zero|first_of_discs|end|capacity|lanes|column|degree|products\[at|leaves\(\)\[)\b|<<"
     r"|\breturn\s*\{|i \* \(i \+ 1\)"
 )

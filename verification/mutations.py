@@ -235,7 +235,7 @@ def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m verification.mutations", description=__doc__.splitlines()[0]
     )
-    parser.add_argument("--count", type=int, default=160, help="mutants to draw (%(default)s)")
+    parser.add_argument("--count", type=int, default=320, help="mutants to draw (%(default)s)")
     parser.add_argument("--list", action="store_true", help="only show which")
     parser.add_argument("--source", type=Path, default=REPOSITORY)
     parser.add_argument("--out", type=Path, default=REPOSITORY / "build" / "mutations")
