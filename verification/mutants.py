@@ -38,17 +38,18 @@ HIDDEN = re.compile(r'//[^\n]*|^\s*#[^\n]*|"(?:\\.|[^"\\\n])*"', re.MULTILINE)
 # One brace group is part of an expression, as in Real{0.5} or std::min({a, b}).
 EXPRESSION = r"(?P<expression>[^\s;{}=](?:[^;{}]|(?<=[\w(])\{[^;{}]*\})*)(?=;)"
 ASSIGNED = re.compile(
-    r"(?<![^\s;{}])(?P<to>return|(?:const\s+)?(?:double|P|Real|Vector)\s\w+\s=|[a-z][\w.:\[\]()]*\s(?P<by>[-+]?)=)\s+"
+    r"(?<![^\s;{}])(?P<to>return|(?:const\s+)?(?:double|P|Real|Vector|Stencil|Eigen::ArrayXd)\s\w+\s=|[a-z][\w.:\[\]()]*\s(?P<by>[-+]?)=)\s+"
     + EXPRESSION
 )
 STATEMENT = re.compile(r"[^;{}\s](?:[^;{}]|(?<=[\w(])\{[^;{}]*\})*")
 SIGN = re.compile(r"(?<=[\w)\]]\s)[-+]\s+(?=[\w(])")
+INDEX = re.compile(r"\b(?:column|degree|order)\s$")
 OPERAND = re.compile(r"\w(?:[\w.:]|->)*(?:\([^()]*\)|\[\w*\])*")
 COMPUTES = re.compile(r"\s[-+*/]\s|\w\(")
 NO_PHYSICS = re.compile(
     r"\b(?:constexpr|using|template|static_assert|for|while|namespace|struct|throw|static_cast<std::|auto"
     r"|size_t|ptrdiff_t|int|bool|string|begin|count|std::array|bytes|optional|first_coefficient|move|push_back|resize"
-    r"|numeric_limits|Zero|first_of_discs|end|capacity|lanes|column|degree|products\[at|leaves\(\)\[)\b|<<"
+    r"|numeric_limits|Zero|first_of_discs|end|capacity|lanes|products\[at|leaves\(\)\[)\b|<<"
     r"|\breturn\s*\{|i \* \(i \+ 1\)"
 )
 COMPARES = re.compile(r"\s[<>]=?\s|[!=]=\s|&&|\|\|")
@@ -81,6 +82,8 @@ def offered(code: str) -> Iterator[tuple[str, re.Match[str], int, int, str]]:
         if NO_PHYSICS.search(statement[0]):
             continue
         for sign in SIGN.finditer(statement[0]):
+            if INDEX.search(statement[0], 0, sign.start()):
+                continue
             start = statement.start() + sign.end()
             operand = OPERAND.match(code, start)
             for kind in ("sign", "drop"):
