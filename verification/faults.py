@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -64,16 +64,17 @@ def plant(text: str, fault: Fault) -> str:
     return text.replace(fault.find, fault.replace)
 
 
-def synchronise(source: Path, copy: Path, fault: Fault) -> None:
-    """Makes `copy` the source tree with the fault in; writes only what differs: builds are incremental."""
-    wanted: dict[Path, bytes] = {}
+def sources(source: Path) -> dict[Path, bytes]:
+    """What the solver and its tests are built from."""
+    found: dict[Path, bytes] = {}
     for top in SOURCES:
         files = [source / top] if (source / top).is_file() else sorted((source / top).rglob("*"))
-        wanted |= {file.relative_to(source): file.read_bytes() for file in files if file.is_file()}
-    target = Path(fault.file or "")
-    if target not in wanted:
-        raise FaultError(f"{fault.file} is not among the sources")
-    wanted[target] = plant(wanted[target].decode(), fault).encode()
+        found |= {file.relative_to(source): file.read_bytes() for file in files if file.is_file()}
+    return found
+
+
+def write_tree(wanted: Mapping[Path, bytes], copy: Path) -> None:
+    """Makes `copy` hold these files alone; writes only what differs: builds are incremental."""
     for file in [f for f in copy.rglob("*") if f.is_file() and f.relative_to(copy) not in wanted]:
         file.unlink()
     for file, content in wanted.items():
@@ -81,6 +82,28 @@ def synchronise(source: Path, copy: Path, fault: Fault) -> None:
         if not destination.exists() or destination.read_bytes() != content:
             destination.parent.mkdir(parents=True, exist_ok=True)
             destination.write_bytes(content)
+
+
+def synchronise(source: Path, copy: Path, fault: Fault) -> None:
+    """Makes `copy` the source tree with the fault in."""
+    wanted = sources(source)
+    target = Path(fault.file or "")
+    if target not in wanted:
+        raise FaultError(f"{fault.file} is not among the sources")
+    wanted[target] = plant(wanted[target].decode(), fault).encode()
+    write_tree(wanted, copy)
+
+
+def compiler_errors(out: Path, targets: Sequence[str], flags: Sequence[str]) -> list[str]:
+    """Builds the copy `out`/source in `out`/build; the lines that say what is wrong, none when it builds."""
+    copy, folder = out / "source", out / "build"
+    configure = ["cmake", "-S", str(copy), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release", *flags]
+    for command in (configure, ["cmake", "--build", str(folder), "--parallel", "2", "--target", *targets]):
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            errors = [line for line in (done.stdout + done.stderr).splitlines() if "rror" in line]
+            return errors or [" ".join(command)]
+    return []
 
 
 def build(
@@ -91,15 +114,10 @@ def build(
     flags: Sequence[str] = (),
 ) -> Path:
     """The solver with a source fault in; all source faults share one build folder. `flags` are CMake's."""
-    copy, folder = out / "source", out / "build"
-    synchronise(source, copy, fault)
-    configure = ["cmake", "-S", str(copy), "-B", str(folder), "-DCMAKE_BUILD_TYPE=Release", *flags]
-    for command in (configure, ["cmake", "--build", str(folder), "--parallel", "2", "--target", *targets]):
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            errors = [line for line in (done.stdout + done.stderr).splitlines() if "rror" in line]
-            raise FaultError(f"does not build: {errors[0] if errors else command}")
-    return folder / "slurry"
+    synchronise(source, out / "source", fault)
+    if errors := compiler_errors(out, targets, flags):
+        raise FaultError(f"does not build: {errors[0]}")
+    return out / "build" / "slurry"
 
 
 def verify(fault: Fault, solver: Path, out: Path, extra: Sequence[str]) -> list[dict[str, Any]]:

@@ -61,7 +61,7 @@ inline void disorder(Particles& particles, const Scene& scene, unsigned seed = 3
     std::uniform_real_distribution<double> uniform(-1, 1);
     const EquationOfState equation_of_state{scene.fluid.density, scene.numerics.sound_speed};
     FluidParticles& fluid = particles.fluid;
-    fluid.shift_time = 0.5;
+    fluid.shift_time = 0.25 * scene.numerics.smoothing_length() / scene.numerics.sound_speed;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         fluid.velocity_x[i] = uniform(generator);
         fluid.velocity_y[i] = uniform(generator);

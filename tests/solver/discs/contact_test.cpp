@@ -53,12 +53,65 @@ TEST(DiscContacts, ActAcrossPeriodicSidesAndOncePerPair) {
     }
 }
 
+TEST(DiscContacts, DoNotDependOnThePlaceInAPeriodicDomain) {
+    const Scene scene = dry(doubly_periodic(20), {{0.2, 0.4}, {0.2, 0.9}});
+    const Region region(scene);
+    Particles particles = arrange(scene);
+    std::vector<Disc>& discs = particles.discs;
+    const Vector offset = (2 * radius + distance / 2) * Vector(3, 4) / 5;
+    for (double moved = -2; moved < 2; moved += 0.0625) { // through the domain of width 1 and beyond
+        discs[0].position = Vector(0.2 + moved, 0.7 - 2 * moved);
+        discs[1].position = discs[0].position + offset;
+        DiscContacts(scene, region).compute(particles);
+        EXPECT_LT((discs[1].contact_force - 0.5 * offset.normalized()).norm(), 1e-9) << moved;
+        EXPECT_LT((discs[0].contact_force + discs[1].contact_force).norm(), 1e-14) << moved;
+    }
+}
+
 TEST(DiscContacts, WallsRepelAsMirrorDiscsDo) {
     for (const double gap : {0.0, 0.004, 0.009, 0.011}) {
         const auto discs = discs_with_forces(dry(flat_channel(20), {{0.2, 0.2 + radius + gap}}));
         const double depth = 2 * gap < distance ? (2 * gap - distance) / distance : 0;
         EXPECT_LT((discs[0].contact_force - Vector(0, 2 * depth * depth)).norm(), 1e-12) << gap;
     }
+}
+
+// A force f (1 - gap / distance)^2 does the work f distance / 3 on the way to touch.
+TEST(DiscContacts, ByDefaultStopAFifthOfTheSoundSpeed) {
+    Scene scene = dry(flat_channel(20), {{0.1, 0.7}, {0.1 + 2 * radius, 0.7}, {0.5, 0.2 + radius}});
+    scene.contact = {};
+    scene.discs[1].density = 700;
+    const double reach = 2 * scene.numerics.particle_spacing;
+    const double stopped = scene.numerics.sound_speed / 5;
+    const auto work_of = [&](std::size_t disc, double way) {
+        return discs_with_forces(scene)[disc].contact_force.norm() * way / 3;
+    };
+    const std::vector<Disc> discs = arrange(scene).discs;
+    const double reduced_mass = 1 / (1 / discs[0].mass + 1 / discs[1].mass);
+    EXPECT_NEAR(work_of(0, reach), 0.5 * reduced_mass * stopped * stopped, 1e-6);
+    EXPECT_NEAR(work_of(1, reach), 0.5 * reduced_mass * stopped * stopped, 1e-6);
+    EXPECT_NEAR(work_of(2, reach / 2), 0.5 * discs[2].mass * stopped * stopped, 1e-6); // by the floor
+    scene.discs[0].motion = DiscMotion::fixed;
+    EXPECT_NEAR(work_of(1, reach), 0.5 * discs[1].mass * stopped * stopped, 1e-6);
+    scene.discs[1].motion = DiscMotion::fixed;
+    EXPECT_EQ(work_of(1, reach), 0);
+}
+
+// At touch the force grows by 2 f / distance per length; by the floor, whose mirror disc moves, by twice
+// that.
+TEST(DiscContacts, HighestFrequencyIsThatOfASpringAtTouch) {
+    Scene scene = dry(flat_channel(20), {{0.1, 0.7}, {0.5, 0.7}});
+    scene.discs[1].density = 700;
+    const Particles particles = arrange(scene);
+    const Region region(scene);
+    const DiscContacts contacts(scene, region);
+    const double spring = 2 * 2 / distance; // the scene's f is 2 N/m
+    const double lightest = particles.discs[1].mass;
+    EXPECT_NEAR(contacts.highest_frequency(particles.discs), std::sqrt(2 * spring / lightest), 1e-9);
+    scene.contact = {distance, 0, 1}; // by default the floor's force is 3 / 0.75 times as large as a pair's
+    const DiscContacts by_default(scene, region);
+    const double stopped = scene.numerics.sound_speed / 5;
+    EXPECT_NEAR(by_default.highest_frequency(particles.discs), std::sqrt(12.0) * stopped / distance, 1e-9);
 }
 
 TEST(DiscContacts, CurvedWallsRepelFromTheirNearestPointWhereTheyHaveMoved) {

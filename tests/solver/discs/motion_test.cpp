@@ -77,6 +77,31 @@ TEST(Discs, OfTheFluidsDensityRestInIt) {
     EXPECT_LT(largest(flow.particles.fluid.velocity_x), 1e-6 * scene.numerics.sound_speed);
 }
 
+TEST(Discs, TurnByTheMomentOfTheForcesOnTheirParticles) {
+    Scene scene = doubly_periodic(24);
+    scene.discs = {middle_disc()};
+    Particles particles = arrange(scene);
+    DummyParticles& dummies = particles.dummies;
+    const std::size_t count = dummies.size(); // there are no walls
+    const Vector centre = particles.discs[0].position;
+    dummies.force_x.assign(count, 0);
+    dummies.force_y.assign(count, 0);
+    dummies.twist.assign(count, 0.25);
+    Vector force = Vector::Zero();
+    double torque = 0.25 * static_cast<double>(count);
+    for (std::size_t d = 0; d < count; ++d) {
+        const Vector part(0.3 + dummies.y[d], -0.2 + dummies.x[d] * dummies.x[d]);
+        const Vector arm = Vector(dummies.x[d], dummies.y[d]) - centre;
+        dummies.force_x[d] = part.x();
+        dummies.force_y[d] = part.y();
+        force += part;
+        torque += left_of(arm).dot(part);
+    }
+    sum_disc_forces(particles, scene.fluid);
+    EXPECT_LT((particles.discs[0].force - force).norm(), 1e-12 * force.norm());
+    EXPECT_NEAR(particles.discs[0].torque, torque, 1e-12 * std::abs(torque));
+}
+
 // A disc that turns with all the fluid around it feels no torque. Eq. 2.15 alone would give it one.
 TEST(Discs, FeelNoTorqueInARigidRotation) {
     Scene scene = doubly_periodic(36);

@@ -109,6 +109,17 @@ TEST(Interactions, FloatAgreesWithPlainNumbersInEveryComposition) {
     }
 }
 
+// Where a scene lies is no physics: float sees places from the middle of the domain.
+TEST(Interactions, FloatAgreesWithPlainNumbersFarFromTheOrigin) {
+    Scene scene = composed(compositions - 1, false);
+    const Vector far(1e4, -3e4);
+    scene.domain.lower += far;
+    scene.domain.upper += far;
+    const Particles plain = evaluated(scene, LoopWidth::plain);
+    scene.numerics.pair_arithmetic = PairArithmetic::single_precision;
+    expect_same_results(evaluated(scene, LoopWidth::native), plain, 2e-5);
+}
+
 TEST(Interactions, EveryKernelAgreesWithPlainNumbers) {
     for (const KernelShape kernel : {KernelShape::quintic, KernelShape::wendland_c2, KernelShape::wendland_c4,
                                      KernelShape::fitted_quintic}) {

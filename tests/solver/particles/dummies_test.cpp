@@ -59,6 +59,20 @@ TEST(Dummies, OfAMovingRoughPadMoveWithIt) {
     }
 }
 
+TEST(Dummies, MoveAsFarAsTheirOwnWallInTheTime) {
+    DummyParticles dummies;
+    dummies.resize(3);
+    dummies.wall_drift = {{2, -5}, {0, 0}};
+    dummies.first_of_discs = 2; // what belongs to a disc moves with that
+    dummies.start_x = {1, 1, 1};
+    dummies.start_y = {4, 4, 4};
+    dummies.x = dummies.y = {7, 7, 7};
+    dummies.wall = {0, 1, 2};
+    dummies.move_walls_to(3);
+    EXPECT_EQ(dummies.x, std::vector<double>({1 + 6, 1, 7}));
+    EXPECT_EQ(dummies.y, std::vector<double>({4 - 15, 4, 7}));
+}
+
 TEST(Dummies, KnowTheNearestPointOfTheirWallAndItsFrameWhileItMoves) {
     Scene scene = rough_channel(1e-6);
     scene.fluid = {1000, 1e-3, Vector::Zero()};
