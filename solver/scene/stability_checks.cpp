@@ -24,9 +24,9 @@ void check_extrapolation(const Scene& scene, double acoustic, const Places& plac
     if (solids && scene.numerics.wall_continuity == WallContinuity::extrapolated &&
         !(acoustic <= largest_extrapolated * (1 + 1e-9))) {
         refuse(places.of("numerics.wall_continuity"),
-               fmt::format("numerics.wall_continuity = \"extrapolated\" with a time step of {:.3g} h / c",
+               fmt::format(R"(numerics.wall_continuity = "extrapolated" with a time step of {:.3g} h / c)",
                            acoustic),
-               fmt::format("\"solenoidal\" or \"wall_velocity\", or a numerics.acoustic_cfl of at most {}",
+               fmt::format(R"("solenoidal" or "wall_velocity", or a numerics.acoustic_cfl of at most {})",
                            largest_extrapolated));
     }
 }
@@ -36,7 +36,7 @@ void check_time_step(const Scene& scene, const Places& places) {
     const double h = numerics.smoothing_length();
     const double step = largest_time_step(scene);
     const double acoustic = numerics.sound_speed * step / h;
-    const double viscous = scene.fluid.kinematic_viscosity() * step / (h * h);
+    const double viscous = scene.fluid.kinematic_viscosity() * (step / h) / h;
     if (!(acoustic < largest_acoustic)) {
         refuse(places.of("numerics.acoustic_cfl"),
                fmt::format("numerics.acoustic_cfl = {}, a time step of {:.3g} h / c", numerics.acoustic_cfl,
