@@ -71,6 +71,7 @@ bool beyond_end(const Dummy& dummy, double spacing) {
 // the other for the fluid to escape through.
 std::vector<std::vector<Dummy>> curve_layers(const std::vector<Wall>& walls, double spacing, int layers) {
     std::vector<std::vector<Dummy>> result;
+    result.reserve(walls.size());
     for (const Wall& wall : walls)
         result.push_back(wall.curve_dummies(spacing, layers));
     Neighbourhood earlier;

@@ -6,6 +6,7 @@
 #include "solver/discs/placement.hpp"
 #include "solver/kernels/quintic_spline.hpp"
 #include "solver/loop/interactions.hpp"
+#include "solver/scene/start_velocity.hpp"
 #include "solver/terms/equation_of_state.hpp"
 
 #include <gsl/gsl_rng.h>
@@ -121,20 +122,18 @@ void balance_body_force(FluidParticles& fluid, const Scene& scene) {
 void set_velocity(FluidParticles& fluid, const Scene& scene) {
     const Start& start = scene.start;
     const Domain& domain = scene.domain;
-    const Vector size = domain.size();
     const EquationOfState equation_of_state{scene.fluid.density, scene.numerics.sound_speed};
     const double peak_pressure = scene.fluid.density * start.speed * start.speed / 4;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
-        const double x = 2 * std::numbers::pi * (fluid.x[i] - domain.lower.x()) / size.x();
-        const double y = 2 * std::numbers::pi * (fluid.y[i] - domain.lower.y()) / size.x();
+        const Vector velocity = start_velocity(scene, {fluid.x[i], fluid.y[i]});
+        fluid.velocity_x[i] = velocity.x();
+        fluid.velocity_y[i] = velocity.y();
         if (start.velocity == InitialVelocity::taylor_green) {
-            fluid.velocity_x[i] = -start.speed * std::cos(x) * std::sin(y);
-            fluid.velocity_y[i] = start.speed * std::sin(x) * std::cos(y);
+            const double x = 2 * std::numbers::pi * (fluid.x[i] - domain.lower.x()) / domain.size().x();
+            const double y = 2 * std::numbers::pi * (fluid.y[i] - domain.lower.y()) / domain.size().x();
             // Without the vortices' pressure the start would be heard as sound for a long time.
             fluid.density[i] =
                 equation_of_state.density(-peak_pressure * (std::cos(2 * x) + std::cos(2 * y)));
-        } else if (start.velocity == InitialVelocity::shear) {
-            fluid.velocity_x[i] = start.speed * (fluid.y[i] - domain.lower.y()) / size.y();
         }
     }
 }

@@ -71,8 +71,10 @@ Hdf5Handle any_space(Bytes& bytes) {
     return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
 }
 
+// None where there are too many to write.
 hssize_t points_in(const Hdf5Handle& space) {
-    return std::clamp<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0, hssize_t{1} << 16U);
+    const hssize_t points = H5Sget_simple_extent_npoints(space.get());
+    return points > hssize_t{1} << 16U ? 0 : std::max<hssize_t>(points, 0);
 }
 
 // Every number of a dataset, or one of them.
