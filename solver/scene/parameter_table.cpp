@@ -110,7 +110,7 @@ const std::vector<Parameter> parameter_table{
     {"numerics", "", "force_cfl", member(&Numerics::force_cfl), "", 0.25, positive_up_to(10),
      "time step over sqrt(smoothing_length / acceleration)"},
     {"numerics", "", "density_diffusion", member(&Numerics::density_diffusion), "",
-     Default::by_scheme(0.04, 0.0), between(0, 1), "delta of the density diffusion; 0 turns it off"},
+     Default::by_scheme(0.05, 0.0), between(0, 1), "delta of the density diffusion; 0 turns it off"},
     {"numerics", "", "gradient_correction", member(&Numerics::gradient_correction), "", true, anything(),
      "corrected kernel gradient in the continuity equation"},
     {"numerics", "", "keep_mean_density", member(&Numerics::keep_mean_density), "",

@@ -23,6 +23,9 @@ class AllPairs {
         : scene_(scene), fluid_(particles.fluid), dummies_(particles.dummies), discs_(particles.discs),
           h_(scene.numerics.smoothing_length()) {
         find_pairs();
+        for (std::size_t i = 0; i < fluid_.size(); ++i) {
+            shift_.emplace_back(fluid_.shift_x(i), fluid_.shift_y(i));
+        }
     }
 
     // Every pass of a time step, into the particles.
@@ -288,9 +291,7 @@ class AllPairs {
     [[nodiscard]] Vector velocity_of(std::size_t j) const {
         return pick(j, fluid_.velocity_x, fluid_.velocity_y, dummies_.velocity_x, dummies_.velocity_y);
     }
-    [[nodiscard]] Vector advection_shift(std::size_t i) const {
-        return {fluid_.shift_x(i), fluid_.shift_y(i)};
-    }
+    [[nodiscard]] Vector advection_shift(std::size_t i) const { return shift_[i]; }
     [[nodiscard]] double continuity_density(std::size_t j) const {
         const double c = scene_.numerics.sound_speed;
         return is_fluid(j) ? fluid_.density[j] : scene_.fluid.density + pressure(j) / (c * c);
@@ -347,8 +348,7 @@ class AllPairs {
         return is_fluid(j) ? fluid_.pressure[j] : dummies_.pressure[j - fluid_.size()];
     }
     [[nodiscard]] Matrix advection(std::size_t j) const {
-        return is_fluid(j) ? Matrix(fluid_.density[j] * velocity_of(j) *
-                                    Vector(fluid_.shift_x(j), fluid_.shift_y(j)).transpose())
+        return is_fluid(j) ? Matrix(fluid_.density[j] * velocity_of(j) * shift_[j].transpose())
                            : Matrix(Matrix::Zero());
     }
     [[nodiscard]] Vector pick(std::size_t j, const std::vector<double>& fluid_x,
@@ -359,6 +359,7 @@ class AllPairs {
     }
 
     const Scene& scene_;
+    std::vector<Vector> shift_; // of the step before: the forces put a new one in its place
     FluidParticles& fluid_;
     DummyParticles& dummies_;
     const std::vector<Disc>& discs_;
