@@ -39,7 +39,7 @@ CASES = (
     ("disc_flight", "default"), ("still_rough_box", "default"), ("thrown_disc", "default"),
     ("rough_pad", "default"), ("couette", "default"), ("poiseuille", "default"), ("taylor_green", "default"),
     ("disc_conservation", "default"), ("disc_density", "default"), ("disc_rotating", "default"),
-    ("couette", "wang2014"), ("poiseuille", "wang2014"), ("disc_rotating", "wang2014"),
+    ("couette", "wang2014"), ("poiseuille", "wang2014"),
     ("rough_channel", "default"),
 )  # fmt: skip
 TARGETS = ("slurry", "slurry_tests")
@@ -273,6 +273,7 @@ def judge_all(drawn: Sequence[Mutant], options: argparse.Namespace) -> list[dict
 
 def main(argv: Sequence[str] | None = None) -> int:
     options = parse(argv)
+    os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # threads that spin would double the time
     try:
         texts = {file: (options.source / file).read_text() for file in PHYSICS}
         drawn = draw([m for file, text in texts.items() for m in mutants_of(file, text)], options.count)

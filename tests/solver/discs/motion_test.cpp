@@ -77,6 +77,25 @@ TEST(Discs, OfTheFluidsDensityRestInIt) {
     EXPECT_LT(largest(flow.particles.fluid.velocity_x), 1e-6 * scene.numerics.sound_speed);
 }
 
+TEST(Discs, GainMomentumByForceAndTimeUnlessHeld) {
+    Scene scene = doubly_periodic(18);
+    scene.discs = {middle_disc(3)};
+    for (const DiscMotion motion : {DiscMotion::free, DiscMotion::fixed}) {
+        scene.discs[0].motion = motion;
+        Particles particles = arrange(scene);
+        Disc& disc = particles.discs[0];
+        disc.force = {1, 2};
+        disc.contact_force = {3, -1};
+        disc.weight = {0, -8};
+        disc.torque = 5;
+        kick_discs(particles, 0.25);
+        const bool free = motion == DiscMotion::free;
+        EXPECT_LT((disc.mass * disc.velocity - (free ? Vector(1, -1.75) : Vector(0, 0))).norm(), 1e-14);
+        EXPECT_NEAR(disc.moment_of_inertia * disc.spin, free ? 1.25 : 0, 1e-14);
+        EXPECT_NEAR(disc.moment_of_inertia, disc.mass * disc.radius * disc.radius / 2, 1e-15);
+    }
+}
+
 TEST(Discs, TurnByTheMomentOfTheForcesOnTheirParticles) {
     Scene scene = doubly_periodic(24);
     scene.discs = {middle_disc()};

@@ -179,7 +179,7 @@ TEST(Interactions, AgreeWithTheEquationsBesideASteepWallThatCrossesAPeriodicSide
 }
 
 TEST(Interactions, AgreeWithTheEquationsAroundADiscThatSpins) {
-    for (const unsigned bits : {0U, 255U, 256U, compositions - 1}) { // means and fits
+    for (const unsigned bits : {0U, 255U, 256U, 264U, compositions - 1}) { // means and fits
         SCOPED_TRACE("composition " + std::to_string(bits));
         Scene scene = composed(bits, true);
         scene.discs = {middle_disc()};
