@@ -5,6 +5,9 @@
 
 namespace slurry {
 
+// Less, at the very edge of the support, is no weight: its reciprocal may be beyond the range of a float.
+inline constexpr double least_weight = 1e-30; // h^2 W
+
 // sum_f v_f W_df / sum_f W_df; the caller reflects it about the wall's velocity (Eq. 2.16).
 struct VelocityExtrapolation {
     template <class P> struct Sums { P kernel{}, velocity_x{}, velocity_y{}; };
@@ -19,7 +22,7 @@ struct VelocityExtrapolation {
     static void finish(const Sums<P>& sums, const MeanView<P>& /*unused*/,
                        const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
         const P zero{};
-        const P inverse = sums.kernel > zero ? 1 / sums.kernel : zero;
+        const P inverse = sums.kernel > zero + Real(least_weight) ? 1 / sums.kernel : zero;
         result.velocity_x = sums.velocity_x * inverse;
         result.velocity_y = sums.velocity_y * inverse;
     }
@@ -43,7 +46,7 @@ struct PressureExtrapolation {
         const P zero{};
         const P total = sums.pressure +
                         coefficients.mass * (dummy.force_x() * sums.lever_x + dummy.force_y() * sums.lever_y);
-        result.pressure = sums.weight > zero ? total / sums.weight : zero;
+        result.pressure = sums.weight > zero + Real(least_weight) ? total / sums.weight : zero;
     }
 };
 

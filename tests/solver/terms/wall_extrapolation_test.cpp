@@ -1,4 +1,6 @@
 // What dummies take from the fluid, Eqs. 2.16 and 2.17.
+#include "solver/terms/wall_extrapolation.hpp"
+
 #include "tests/solver/scenes_for_tests.hpp"
 
 #include <gtest/gtest.h>
@@ -94,6 +96,20 @@ TEST(WallExtrapolation, NeverGivesAValueThatIsNotFinite) {
         EXPECT_TRUE(std::isfinite(largest(*values)));
     }
     EXPECT_EQ(largest(particles.dummies.pressure), 0);
+}
+
+// A lone neighbour at the edge of a kernel's support may weigh less than can be divided by.
+TEST(WallExtrapolation, IsFiniteWhateverTheFluidWeighs) {
+    for (const float weight : {0.0F, 1e-45F, 1e-40F, 1e-36F, 1e-31F, 1e-20F}) {
+        MeanView<float> dummy{};
+        const ExtrapolationCoefficients<float> coefficients{1};
+        Extrapolation<float> result{};
+        VelocityExtrapolation::finish<float, float>({weight, 0, 2 * weight}, dummy, coefficients, result);
+        PressureExtrapolation::finish<float, float>({weight, 3 * weight, 0, 0}, dummy, coefficients, result);
+        EXPECT_EQ(result.velocity_x, 0) << weight;
+        EXPECT_TRUE(result.velocity_y == 0 || std::abs(result.velocity_y - 2) < 1e-5) << weight;
+        EXPECT_TRUE(result.pressure == 0 || std::abs(result.pressure - 3) < 1e-5) << weight;
+    }
 }
 
 } // namespace
