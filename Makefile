@@ -63,7 +63,7 @@ report: setup ## Write the report again from the last results (build/verify/repo
 faults: build ## Plant each known fault and show that the named checks fail
 	@$(PYTHON) -m verification.faults
 
-mutations: build ## Plant small faults in the physics by machine; at least 90 % must be caught (an hour or less; resumes)
+mutations: build ## Plant small faults in the physics by machine; at least 90 % must be caught (about an hour; resumes)
 	@$(PYTHON) -m verification.mutations --page verification/mutations.md
 
 claims: setup ## Write verification/claims.md, the ledger of the paper's claims, from the last results
