@@ -203,7 +203,7 @@ def test_full_disk_keeps_the_checkpoint(alone: Path, interrupted: Path) -> None:
     assert_same_result(interrupted, alone)
 
 
-@pytest.mark.parametrize("mebibytes", [60, 80, 120])
+@pytest.mark.parametrize("mebibytes", [60, 75, 90])
 def test_out_of_memory_has_a_clear_end(alone: Path, tmp_path: Path, mebibytes: int) -> None:
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (mebibytes << 20, mebibytes << 20))
