@@ -49,7 +49,7 @@ struct ResultFile::Implementation {
     Hdf5Writer writer; // destroyed before the file it writes to
     std::vector<XdmfSnapshot> snapshots;
     XdmfSnapshot unfinished{}; // of them when it has ended
-    std::string checkpoint; // that the run goes on from; empty for a run from the start
+    std::string checkpoint;    // that the run goes on from; empty for a run from the start
 
     Implementation(const std::filesystem::path& target, const Scene& scene)
         : title(scene.title), probes(scene.probes), partial(target), writer(partial.path()) {}
