@@ -5,7 +5,7 @@
 namespace slurry {
 
 // Throws SceneError where the time step (Eq. 2.35) is beyond the limit of the explicit scheme for sound,
-// viscosity, density diffusion, the transport velocity or extrapolated velocities, vortices do not fit into
+// viscosity, density diffusion or extrapolated velocities, vortices do not fit into
 // their periodic domain, or a disc starts so fast that the fluid in its way is compressed beyond what the
 // watchdog lets pass.
 void check_stability(const Scene& scene, const Places& places);
