@@ -24,6 +24,7 @@ PHYSICS = tuple(
         "terms/normal_equations.hpp", "terms/number_density.hpp", "terms/plain_pressure_force.hpp",
         "terms/pressure_advection.hpp", "terms/pressure_force.hpp", "terms/viscous_force.hpp",
         "terms/viscous_twist.hpp", "terms/wall_extrapolation.hpp", "terms/wall_fit.hpp",
+        "terms/wall_pressure_gradient.hpp",
         "kernels/fitted_quintic.hpp", "kernels/quintic_spline.hpp", "kernels/wendland.hpp",
         "discs/contact.cpp", "discs/disc_dummies.cpp", "discs/motion.cpp",
         "geometry/layers.cpp", "loop/pair_interactions.hpp", "loop/pass_rows.hpp", "loop/units.hpp",

@@ -78,7 +78,7 @@ template <class Real> class SweepTimer {
 
     PairSweepTime time_density_rate() {
         rows_.fill_rate(particles_);
-        return time<RateView, Rate>("density rate", DensityRate{}, RateCoefficients<Real>{1, 0, 0});
+        return time<RateView, Rate>("density rate", DensityRate{}, RateCoefficients<Real>{1, 1, 0, 0});
     }
 
     PairSweepTime time_forces() {

@@ -19,6 +19,7 @@
 #include "solver/terms/viscous_twist.hpp"
 #include "solver/terms/wall_extrapolation.hpp"
 #include "solver/terms/wall_fit.hpp"
+#include "solver/terms/wall_pressure_gradient.hpp"
 
 #include <type_traits>
 #include <utility>
@@ -161,9 +162,30 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
                 store_lanes(dummies.velocity_x, first, result.velocity_x, units_.velocity);
                 store_lanes(dummies.velocity_y, first, result.velocity_y, units_.velocity);
                 store_lanes(dummies.pressure, first, result.pressure, units_.pressure());
-                store_lanes(dummies.normal_velocity, first, result.normal_velocity, units_.velocity);
                 store_lanes(dummies.fluid_share, first, result.fluid_share, 1);
+                if (numerics_.wall_extrapolation == WallExtrapolation::fit) {
+                    continue_across_walls(particles, first, result);
+                }
             });
+    }
+
+    // What a fit leaves to do: the velocity across the wall and the pressure's gradient.
+    void continue_across_walls(Particles& particles, std::size_t first,
+                               const Extrapolation<P>& result) const {
+        DummyParticles& dummies = particles.dummies;
+        const double per_length_and_time = units_.velocity / (units_.length * units_.length);
+        const std::size_t end = std::min(first + static_cast<std::size_t>(W), dummies.size());
+        for (std::size_t d = first; d < end; ++d) {
+            const double curvature = per_length_and_time * lane_of(result.normal_curvature, d - first);
+            dummies.normal_velocity[d] = 0.5 * curvature * dummies.depth[d] * dummies.depth[d];
+            const double fitted =
+                units_.pressure() / units_.length * lane_of(result.pressure_gradient, d - first);
+            const double gradient =
+                dummies.of_disc(d)
+                    ? fitted
+                    : wall_pressure_gradient(fluid_, {dummies.normal_x[d], dummies.normal_y[d]}, curvature);
+            dummies.pressure[d] += units_.length * lane_of(result.pressure_lever, d - first) * gradient;
+        }
     }
 
     template <class Divergence> void rate_with(FluidParticles& fluid) {
@@ -186,8 +208,11 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
 
     template <class Terms> void sweep_rate_of(Terms terms, FluidParticles& fluid) {
         const Vector slope = fluid_.acceleration() / units_.acceleration();
-        const RateCoefficients<Real> coefficients{static_cast<Real>(numerics_.density_diffusion),
-                                                  static_cast<Real>(slope.x()), static_cast<Real>(slope.y())};
+        const RateCoefficients<Real> coefficients{
+            static_cast<Real>(effective_density_diffusion(fluid_, numerics_)),
+            static_cast<Real>(numerics_.fourth_order_diffusion_share *
+                              lattice_moment_ratio<Kernel>(numerics_.smoothing_ratio)),
+            static_cast<Real>(slope.x()), static_cast<Real>(slope.y())};
         sweep<Real, W, Kernel, RateView, Rate>(terms, neighbourhood_.of_fluid(), rows_.rows(), coefficients,
                                                [&](std::size_t first, const Rate<P>& result) {
                                                    store_lanes(fluid.density_rate, first, result.density_rate,

@@ -110,7 +110,12 @@ const std::vector<Parameter> parameter_table{
     {"numerics", "", "force_cfl", member(&Numerics::force_cfl), "", 0.25, positive_up_to(10),
      "time step over sqrt(smoothing_length / acceleration)"},
     {"numerics", "", "density_diffusion", member(&Numerics::density_diffusion), "",
-     Default::by_scheme(0.05, 0.0), between(0, 1), "delta of the density diffusion; 0 turns it off"},
+     Default::by_scheme(0.2, 0.0), between(0, 1),
+     "delta of the density diffusion, in full where sound_speed * smoothing_length is at least 2.5 times the "
+     "kinematic viscosity, and proportionally less below; 0 turns it off"},
+    {"numerics", "", "fourth_order_diffusion_share", member(&Numerics::fourth_order_diffusion_share), "",
+     Default::by_scheme(0.8, 0.0), between(0, 0.9),
+     "share of the density diffusion that leaves smooth fields alone; 0 is that of Molteni and Colagrossi"},
     {"numerics", "", "gradient_correction", member(&Numerics::gradient_correction), "", true, anything(),
      "corrected kernel gradient in the continuity equation"},
     {"numerics", "", "keep_mean_density", member(&Numerics::keep_mean_density), "",

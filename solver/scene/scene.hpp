@@ -80,6 +80,7 @@ struct Numerics {
     double viscous_cfl = 0.4;
     double force_cfl = 0.25;
     double density_diffusion = 0; // delta of delta-SPH; 0 = off
+    double fourth_order_diffusion_share = 0;
     bool gradient_correction = true;
     bool advection_tensor = true;
     bool keep_mean_density = true;

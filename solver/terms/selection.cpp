@@ -1,5 +1,6 @@
 #include "solver/terms/selection.hpp"
 
+#include "solver/terms/density_diffusion.hpp"
 #include "solver/terms/steady_frame.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,8 @@ std::vector<TermReason> explain_terms(const Scene& scene) {
         {"gradient correction (2.21, 2.22)", terms.gradient_correction,
          fmt::format("numerics.gradient_correction = {}", numerics.gradient_correction)},
         {"density diffusion (Molteni & Colagrossi 2009)", terms.density_diffusion,
-         fmt::format("numerics.density_diffusion = {}", numerics.density_diffusion)},
+         fmt::format("numerics.density_diffusion = {}, {:.3g} at this viscosity and spacing",
+                     numerics.density_diffusion, effective_density_diffusion(scene.fluid, numerics))},
         {"hydrostatic part of the density diffusion", terms.hydrostatic_diffusion,
          terms.hydrostatic_diffusion ? "a body force acts on the fluid"
                                      : "no body force, or no density diffusion"},

@@ -22,8 +22,9 @@ template <class P> struct Rate {
     P gradient_x, gradient_y; // of the density
 };
 template <class Real> struct RateCoefficients {
-    Real diffusivity;     // delta h c
-    Real density_slope_x; // hydrostatic: rho0 f / c^2
+    Real diffusivity;      // delta h c
+    Real diffusion_moment; // m of the fourth-order diffusion times its share
+    Real density_slope_x;  // hydrostatic: rho0 f / c^2
     Real density_slope_y;
 };
 
@@ -112,9 +113,11 @@ template <class P> struct MeanView {
 // Extrapolation to dummies: v_f and p_f averaged with the kernel as weight.
 template <class P> struct Extrapolation {
     P velocity_x, velocity_y; // Shepard mean of the fluid's velocity
-    P pressure;
-    P normal_velocity; // across the wall, that which the change of the tangential velocity along it asks for
-    P fluid_share;     // of the room within reach in front of a flat wall, what fluid fills
+    P pressure;               // by a fit: of the fluid at the distance pressure_lever from the dummy
+    P pressure_lever;         // along the normal, to the dummy: negative
+    P pressure_gradient;      // along the normal, fitted
+    P normal_curvature;       // second derivative, across the wall, of the velocity across it
+    P fluid_share;            // of the room within reach in front of a flat wall, what fluid fills
 };
 template <class Real> struct ExtrapolationCoefficients { Real mass; };
 

@@ -6,9 +6,13 @@
 // of its curvature, so that the viscous force on the first row of particles is wrong wherever the velocity is
 // not linear. The fits continue the polynomials of the fluid through the wall instead:
 //   velocity - V_wall = n (b_0 + b_1 n + b_2 s)     no slip at n = 0, exactly (V_wall: the rigid motion)
-//   pressure          = c_0 + c_1 n + c_2 s
+//   pressure          = c_0 + c_2 s + g n
 // with n the distance from the (parabolic) wall and s the offset along it, and weights
-// (1 - (r / 3h)^2)^2, wide enough for two rows of particles in a gap to decide on b_1.
+// (1 - (r / 3h)^2)^2, wide enough for two rows of particles in a gap to decide on b_1. At walls g is that of
+// the momentum balance (solver/terms/wall_pressure_gradient.hpp): fitted, it gave energy to sound, and a
+// Couette flow of cell Reynolds number 10 broke up. At discs it is fitted: their acceleration, which it
+// follows from, follows from the pressure in turn, and taken from the step before it shook light ones to
+// pieces.
 #include "solver/loop/pair.hpp"
 #include "solver/terms/normal_equations.hpp"
 #include "solver/terms/views.hpp"
@@ -67,8 +71,7 @@ struct VelocityFit {
         result.velocity_y = dummy.wall_velocity_y() + depth * (depth * y[1] - y[0]);
         // Along the wall the velocity is n (b_0 + b_2 s + ...), so that div v = 0 asks for -b_2 n^2 / 2
         // across it.
-        const P change = x[2] * dummy.normal_y() - y[2] * dummy.normal_x();
-        result.normal_velocity = Real(-0.5) * change * depth * depth;
+        result.normal_curvature = y[2] * dummy.normal_x() - x[2] * dummy.normal_y();
         if constexpr (spinning<View, P>) {
             result.velocity_x += dummy.spin() * depth * dummy.normal_y();
             result.velocity_y -= dummy.spin() * depth * dummy.normal_x();
@@ -78,13 +81,13 @@ struct VelocityFit {
 
 struct PressureFit {
     template <class P> struct Sums {
-        NormalEquations<P, 3> equations; // of 1, n, s
+        NormalEquations<P, 3> equations; // of 1, s, n
         std::array<P, 3> right{};
     };
     template <class P, class View>
     static void add(Sums<P>& sums, const Pair<P>& pair, const View& dummy, const View& fluid) {
         const WallOffset<P> at = wall_offset(pair, dummy);
-        const std::array<P, 3> functions{P{} + 1, at.across, at.along};
+        const std::array<P, 3> functions{P{} + 1, at.along, at.across};
         const std::array<P, 3> weighted = sums.equations.add(at.weight, functions);
         for (std::size_t k = 0; k < 3; ++k) {
             sums.right[k] += weighted[k] * fluid.pressure();
@@ -93,8 +96,13 @@ struct PressureFit {
     template <class P, class View, class Real>
     static void finish(const Sums<P>& sums, const View& dummy,
                        const ExtrapolationCoefficients<Real>& coefficients, Extrapolation<P>& result) {
-        const auto c = FactoredEquations<P, 3>(sums.equations).solve(sums.right);
-        result.pressure = c[0] - dummy.depth() * c[1];
+        const auto& products = sums.equations.products;
+        const FactoredEquations<P, 2> without_distance(
+            NormalEquations<P, 2>{{products[0], products[1], products[2]}});
+        const P mean_distance = without_distance.solve({products[3], products[4]})[0];
+        result.pressure = without_distance.solve({sums.right[0], sums.right[1]})[0];
+        result.pressure_lever = -(dummy.depth() + mean_distance);
+        result.pressure_gradient = FactoredEquations<P, 3>(sums.equations).solve(sums.right)[2];
         result.fluid_share = coefficients.mass * sums.equations.products[0] * Real(1 / half_plane_weight);
     }
 };

@@ -96,7 +96,7 @@ class AllPairs {
                 const auto& [f, s, n, weight] = fluid[static_cast<std::size_t>(k)];
                 const double root = std::sqrt(weight);
                 no_slip.row(k) = root * Eigen::RowVector3d(n, n * n, n * s);
-                linear.row(k) = root * Eigen::RowVector3d(1, n, s);
+                linear.row(k) = root * Eigen::RowVector3d(1, s, n);
                 velocity.row(k) = root * (velocity_of(f) - rigid_velocity(d, s, n)).transpose();
                 pressure(k, 0) = root * fluid_.pressure[f];
             }
@@ -104,11 +104,19 @@ class AllPairs {
             const Eigen::MatrixXd b = least_squares(no_slip, velocity);
             const Vector continued = rigid_velocity(d, 0, n) + n * (b.row(0) + n * b.row(1)).transpose();
             const Vector along(dummies_.normal_y[d], -dummies_.normal_x[d]);
-            dummies_.normal_velocity[d] = -0.5 * n * n * b.row(2).dot(along);
+            const double curvature = -b.row(2).dot(along); // of v . n, in 1 / h^2
+            dummies_.normal_velocity[d] = 0.5 * n * n * curvature;
+            const Vector normal(dummies_.normal_x[d], dummies_.normal_y[d]);
             const Eigen::MatrixXd c = least_squares(linear, pressure);
+            const Eigen::MatrixXd without_distance = least_squares(
+                linear.leftCols(2), (Eigen::MatrixXd(count, 2) << pressure, linear.col(2)).finished());
+            const double gradient =
+                dummies_.of_disc(d) ? c(2, 0)
+                                    : h_ * scene_.fluid.density * scene_.fluid.acceleration().dot(normal) +
+                                          scene_.fluid.dynamic_viscosity * curvature / h_;
             dummies_.velocity_x[d] = continued.x();
             dummies_.velocity_y[d] = continued.y();
-            dummies_.pressure[d] = c(0, 0) + n * c(1, 0);
+            dummies_.pressure[d] = without_distance(0, 0) + (n - without_distance(0, 1)) * gradient;
             double weights = 0;
             for (const auto& near : fluid) {
                 weights += near.weight;
@@ -124,6 +132,12 @@ class AllPairs {
         const Vector density_slope =
             scene_.fluid.density / (numerics.sound_speed * numerics.sound_speed) * scene_.fluid.body_force;
         const std::optional<Vector> frame = select_terms(scene_).pressure_frame;
+        const double viscosity = scene_.fluid.kinematic_viscosity();
+        const double diffusion =
+            viscosity > 0
+                ? numerics.density_diffusion * std::min(1.0, numerics.sound_speed * h_ / (2.5 * viscosity))
+                : numerics.density_diffusion;
+        const double fourth_order = numerics.fourth_order_diffusion_share * lattice_moment_ratio();
         for (std::size_t i = 0; i < fluid_.size(); ++i) {
             const Matrix correction =
                 numerics.gradient_correction ? correction_matrix(i) : Matrix::Identity();
@@ -139,12 +153,26 @@ class AllPairs {
                 if (is_fluid(j)) {
                     const double difference = fluid_.density[j] - fluid_.density[i] + density_slope.dot(r);
                     const Vector psi = 2 * difference / r.squaredNorm() * -r;
-                    rate +=
-                        numerics.density_diffusion * h_ * numerics.sound_speed * psi.dot(gradient) * volume_j;
+                    rate += diffusion * h_ * numerics.sound_speed * psi.dot(gradient) * volume_j *
+                            (1 - fourth_order * r.squaredNorm());
                 }
             });
             fluid_.density_rate[i] = rate;
         }
+    }
+
+    // sum F r^2 / sum F r^4 over a lattice, F = (dW/dr) / r.
+    [[nodiscard]] double lattice_moment_ratio() const {
+        double second = 0;
+        double fourth = 0;
+        for (int column = -6; column <= 6; ++column) {
+            for (int row = -6; row <= 6; ++row) {
+                const double r = std::hypot(column, row) * scene_.numerics.particle_spacing;
+                second += kernel_slope(r) * r;
+                fourth += kernel_slope(r) * r * r * r;
+            }
+        }
+        return second / fourth;
     }
 
     // Eqs. 2.15, 2.19 and 2.20

@@ -26,6 +26,7 @@ Scene composed(unsigned bits, bool walls) {
     const auto bit = [bits](unsigned k) { return (bits >> k & 1U) != 0; };
     scene.numerics.gradient_correction = bit(0);
     scene.numerics.density_diffusion = bit(1) ? 0.1 : 0;
+    scene.numerics.fourth_order_diffusion_share = bit(3) ? 0.8 : 0;
     scene.fluid.body_force = bit(2) ? Vector(0.7, -9.81) : Vector(0, 0);
     scene.fluid.dynamic_viscosity = bit(3) ? 2 : 0;
     scene.numerics.background_pressure_ratio = bit(4) ? 0.8 : 0;

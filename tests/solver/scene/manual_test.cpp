@@ -26,7 +26,7 @@ TEST(Manual, HasEverySectionKeyUnitRangeAndMeaning) {
 }
 
 TEST(Manual, SaysWhichDefaultsDependOnTheScheme) {
-    EXPECT_NE(scene_manual().find("0.05 (scheme wang2014: 0.0)"), std::string::npos);
+    EXPECT_NE(scene_manual().find("0.2 (scheme wang2014: 0.0)"), std::string::npos);
     EXPECT_NE(scene_manual().find("\"curve\" (scheme wang2014: \"lattice\")"), std::string::npos);
 }
 

@@ -14,7 +14,7 @@ TEST_F(ReadScene, FillsTheScene) {
     EXPECT_EQ(scene.domain.upper, Vector(4, 4));
     EXPECT_EQ(scene.domain.periodic, (std::array<bool, 2>{true, false}));
     EXPECT_EQ(scene.fluid.density, 1000);
-    EXPECT_EQ(scene.numerics.density_diffusion, 0.05);
+    EXPECT_EQ(scene.numerics.density_diffusion, 0.2);
     EXPECT_EQ(scene.start.velocity, InitialVelocity::shear);
     ASSERT_EQ(scene.walls.size(), 7U);
     EXPECT_EQ(std::get<LineShape>(scene.walls[0].shape).to, Vector(4, 4));

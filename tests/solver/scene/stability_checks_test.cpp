@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "numerics.viscous_cfl",
                  "numerics.viscous_cfl = 0.5, a time step of 0.5 h^2 / nu",
                  "less than 0.5"},
-        Unstable{{"numerics.density_diffusion=0.7"},
+        Unstable{{"numerics.fourth_order_diffusion_share=0", "numerics.density_diffusion=0.7"},
                  "numerics.density_diffusion=0.6",
                  "numerics.density_diffusion",
                  "numerics.density_diffusion = 0.7 with a time step of 0.75 h / c",

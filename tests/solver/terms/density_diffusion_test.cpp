@@ -1,4 +1,5 @@
 // Density diffusion and its hydrostatic part.
+#include "solver/terms/density_diffusion.hpp"
 #include "tests/solver/scenes_for_tests.hpp"
 
 #include <gtest/gtest.h>
@@ -77,6 +78,45 @@ TEST(DensityDiffusion, ConvergesToTheLaplacian) {
     }
 }
 
+// Largest rate that a density of `waves` waves along the box decays with, per amplitude, 1/s.
+double decay_of(const Scene& scene, int waves) {
+    Particles particles = arrange(scene);
+    FluidParticles& fluid = particles.fluid;
+    const double wave_number = 2 * std::acos(-1.0) * waves;
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        fluid.density[i] = 1000 + std::cos(wave_number * (fluid.x[i] - fluid.x[0]));
+    }
+    diffuse(scene, particles);
+    return -fluid.density_rate[0];
+}
+
+TEST(DensityDiffusion, OfFourthOrderLeavesSmoothFieldsAloneAndDampsNoise) {
+    Scene scene = doubly_periodic(40);
+    scene.numerics.density_diffusion = 0.1;
+    const double long_plain = decay_of(scene, 1);
+    const double short_plain = decay_of(scene, 20);
+    scene.numerics.fourth_order_diffusion_share = 0.9;
+    const double long_mixed = decay_of(scene, 1);
+    EXPECT_NEAR(long_mixed, 0.1 * long_plain, 0.005 * long_plain);
+    EXPECT_NEAR(decay_of(scene, 2) - 0.1 * 4 * long_plain, 16 * (long_mixed - 0.1 * long_plain),
+                0.01 * long_plain); // what it does grows with the fourth power of the wave number
+    EXPECT_GT(decay_of(scene, 20), 0.25 * short_plain);
+}
+
+TEST(DensityDiffusion, FallsWithTheSpacingWhereViscosityDampsTheNoise) {
+    Scene scene = doubly_periodic(12);
+    scene.numerics.density_diffusion = 0.1;
+    const double sound = scene.numerics.sound_speed * scene.numerics.smoothing_length();
+    for (const auto& [sound_reynolds, expected] :
+         {std::pair{0.0, 0.0}, {0.5, 0.02}, {2.5, 0.1}, {100.0, 0.1}}) {
+        scene.fluid.dynamic_viscosity =
+            sound_reynolds > 0 ? scene.fluid.density * sound / sound_reynolds : 1e300;
+        EXPECT_NEAR(effective_density_diffusion(scene.fluid, scene.numerics), expected, 1e-12);
+    }
+    scene.fluid.dynamic_viscosity = 0;
+    EXPECT_EQ(effective_density_diffusion(scene.fluid, scene.numerics), 0.1);
+}
+
 Particles hydrostatic(const Scene& scene) {
     Particles particles = arrange(scene);
     const double c = scene.numerics.sound_speed;
@@ -91,6 +131,7 @@ Particles hydrostatic(const Scene& scene) {
 TEST(HydrostaticDiffusion, LeavesAHydrostaticDensityAloneUpToTheWalls) {
     Scene scene = flat_channel(12);
     scene.numerics.density_diffusion = 0.1;
+    scene.numerics.fourth_order_diffusion_share = 0.8;
     jitter(scene, 0.3);
     scene.fluid.body_force = {0, -3};
     Particles particles = hydrostatic(scene);
