@@ -102,7 +102,9 @@ struct PressureFit {
         const P mean_distance = without_distance.solve({products[3], products[4]})[0];
         result.pressure = without_distance.solve({sums.right[0], sums.right[1]})[0];
         result.pressure_lever = -(dummy.depth() + mean_distance);
-        result.pressure_gradient = FactoredEquations<P, 3>(sums.equations).solve(sums.right)[2];
+        if constexpr (spinning<View, P>) { // else there are no discs
+            result.pressure_gradient = FactoredEquations<P, 3>(sums.equations).solve(sums.right)[2];
+        }
         result.fluid_share = coefficients.mass * sums.equations.products[0] * Real(1 / half_plane_weight);
     }
 };
