@@ -79,8 +79,8 @@ struct Numerics {
     double acoustic_cfl = 0.75;           // the three factors of Eq. 2.35, 0.25 there
     double viscous_cfl = 0.4;
     double force_cfl = 0.25;
-    double density_diffusion = 0; // delta of delta-SPH; 0 = off
-    double fourth_order_diffusion_share = 0;
+    double density_diffusion = 0;            // delta of delta-SPH; 0 = off
+    double fourth_order_diffusion_share = 0; // of the density diffusion
     bool gradient_correction = true;
     bool advection_tensor = true;
     bool keep_mean_density = true;

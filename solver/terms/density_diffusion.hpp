@@ -3,10 +3,9 @@
 // in the density. Two parts, of which a scene has its shares:
 //   second order [molteni2009]: d rho_i / dt += delta h c sum_j psi_ij . grad W_ij V_j with
 //     psi_ij = 2 (rho_j - rho_i) r_ji / r^2, a Laplacian: of steady pressure gradients, too;
-//   fourth order: psi_ij (1 - m r^2 / h^2) in place of psi_ij. Over a lattice its second moment vanishes, so
-//   that
-//     fields which are smooth on the kernel's scale do not feel it. Among disordered particles the moment is
-//     not quite zero and may be negative, so that some second-order diffusion has to go with it.
+//   fourth order: psi_ij (1 - m r^2 / h^2) in place of psi_ij. Its second moment vanishes over a lattice, so
+//     that smooth fields do not feel it. Among disordered particles the moment is not quite zero and may be
+//     negative: some diffusion of second order has to go with it.
 #include "solver/loop/pair.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/terms/views.hpp"
@@ -25,7 +24,8 @@ inline double effective_density_diffusion(const Fluid& fluid, const Numerics& nu
     return numerics.density_diffusion * std::min(sound_reynolds / unaided, 1.0);
 }
 
-// m: sum_j F r^2 / sum_j F r^4 h^2 on a lattice, F = (dW/dr) / r.
+// m: h^2 sum_j F r^2 / sum_j F r^4 over a lattice, F = (dW/dr) / r. The smoothing length h is
+// `smoothing_ratio` times the spacing.
 template <class Kernel> double lattice_moment_ratio(double smoothing_ratio) {
     const int reach = static_cast<int>(Kernel::support * smoothing_ratio);
     double second = 0;
