@@ -116,9 +116,9 @@ void Neighbourhood::build_dummy_list(const DummyParticles& dummies) {
 }
 
 // Lists are looked at twice a step: whoever has left its neighbours behind since then is not simulated any
-// more.
+// more. Discs alone have no neighbours.
 void Neighbourhood::refuse_flight(const Particles& particles, double displacement) const {
-    if (displacement > 5 * spacing_) {
+    if (displacement > 5 * spacing_ && particles.fluid.size() > 0) {
         throw RunError(fmt::format("time {:.6g} s: {}; reduce numerics.acoustic_cfl, or raise "
                                    "numerics.sound_speed to 10 times the top speed",
                                    particles.time, periodic_.farthest_moved(particles)));

@@ -56,6 +56,7 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
   public:
     explicit PairInteractions(const Scene& scene)
         : fluid_(scene.fluid), numerics_(scene.numerics), terms_(select_terms(scene)), units_(scene),
+          rate_coefficients_(rate_coefficients(scene, units_)),
           neighbourhood_(scene, Kernel::support, wall_support(scene), W, sizeof(Row<Real>)),
           rows_(scene, neighbourhood_.periodic()) {}
 
@@ -178,12 +179,11 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
         for (std::size_t d = first; d < end; ++d) {
             const double curvature = per_length_and_time * lane_of(result.normal_curvature, d - first);
             dummies.normal_velocity[d] = 0.5 * curvature * dummies.depth[d] * dummies.depth[d];
-            const double fitted =
-                units_.pressure() / units_.length * lane_of(result.pressure_gradient, d - first);
+            const Vector normal{dummies.normal_x[d], dummies.normal_y[d]};
             const double gradient =
                 dummies.of_disc(d)
-                    ? fitted
-                    : wall_pressure_gradient(fluid_, {dummies.normal_x[d], dummies.normal_y[d]}, curvature);
+                    ? units_.pressure() / units_.length * lane_of(result.pressure_gradient, d - first)
+                    : wall_pressure_gradient(fluid_, normal, curvature);
             dummies.pressure[d] += units_.length * lane_of(result.pressure_lever, d - first) * gradient;
         }
     }
@@ -207,20 +207,14 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     }
 
     template <class Terms> void sweep_rate_of(Terms terms, FluidParticles& fluid) {
-        const Vector slope = fluid_.acceleration() / units_.acceleration();
-        const RateCoefficients<Real> coefficients{
-            static_cast<Real>(effective_density_diffusion(fluid_, numerics_)),
-            static_cast<Real>(numerics_.fourth_order_diffusion_share *
-                              lattice_moment_ratio<Kernel>(numerics_.smoothing_ratio)),
-            static_cast<Real>(slope.x()), static_cast<Real>(slope.y())};
-        sweep<Real, W, Kernel, RateView, Rate>(terms, neighbourhood_.of_fluid(), rows_.rows(), coefficients,
-                                               [&](std::size_t first, const Rate<P>& result) {
-                                                   store_lanes(fluid.density_rate, first, result.density_rate,
-                                                               units_.density_rate());
-                                                   if (terms_.pressure_frame) {
-                                                       advect_pressure(fluid, first, result);
-                                                   }
-                                               });
+        sweep<Real, W, Kernel, RateView, Rate>(
+            terms, neighbourhood_.of_fluid(), rows_.rows(), rate_coefficients_,
+            [&](std::size_t first, const Rate<P>& result) {
+                store_lanes(fluid.density_rate, first, result.density_rate, units_.density_rate());
+                if (terms_.pressure_frame) {
+                    advect_pressure(fluid, first, result);
+                }
+            });
     }
 
     // The part of the density rate that PressureAdvection left to do: (v~ - U) . grad rho.
@@ -252,6 +246,15 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
         } else {
             sweep_forces<Forces...>(particles);
         }
+    }
+
+    static RateCoefficients<Real> rate_coefficients(const Scene& scene, const Units& units) {
+        const Numerics& numerics = scene.numerics;
+        const Vector slope = scene.fluid.acceleration() / units.acceleration();
+        return {static_cast<Real>(effective_density_diffusion(scene.fluid, numerics)),
+                static_cast<Real>(numerics.fourth_order_diffusion_share *
+                                  lattice_moment_ratio<Kernel>(numerics.smoothing_ratio)),
+                static_cast<Real>(slope.x()), static_cast<Real>(slope.y())};
     }
 
     [[nodiscard]] ForceCoefficients<Real> force_coefficients(const Particles& particles) const {
@@ -304,6 +307,7 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
     Numerics numerics_;
     TermSelection terms_;
     Units units_;
+    RateCoefficients<Real> rate_coefficients_;
     Neighbourhood neighbourhood_;
     PassRows<Real> rows_;
     bool full_step_rows_ = false; // the fluid's rows are those of the last extrapolation to walls

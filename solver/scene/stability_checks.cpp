@@ -19,9 +19,9 @@ namespace {
 constexpr double largest_acoustic = 2.3;  // c dt / h
 constexpr double largest_viscous = 0.5;   // nu dt / h^2
 constexpr double largest_diffusion = 0.5; // delta c dt / h
+constexpr double largest_extrapolated = 0.5; // c dt / h
 // Neighbours of opposite density feel the fourth-order diffusion so much less than the same of second order.
 constexpr double fourth_order_relief = 0.55;
-constexpr double largest_extrapolated = 0.5; // c dt / h
 
 void check_extrapolation(const Scene& scene, double acoustic, const Places& places) {
     if (scene.numerics.wall_continuity != WallContinuity::extrapolated) {
