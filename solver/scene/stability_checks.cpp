@@ -16,9 +16,9 @@ namespace {
 // the density diffusion: a jittered Couette flow runs with 0.45 and diverges with 0.6. Of extrapolated
 // velocities in the continuity equation: a curved wall took 0.6, not 0.75. The background pressure has none:
 // it is limited as the time step asks (solver/terms/background_pressure.hpp).
-constexpr double largest_acoustic = 2.3;  // c dt / h
-constexpr double largest_viscous = 0.5;   // nu dt / h^2
-constexpr double largest_diffusion = 0.5; // delta c dt / h
+constexpr double largest_acoustic = 2.3;     // c dt / h
+constexpr double largest_viscous = 0.5;      // nu dt / h^2
+constexpr double largest_diffusion = 0.5;    // delta c dt / h
 constexpr double largest_extrapolated = 0.5; // c dt / h
 // Neighbours of opposite density feel the fourth-order diffusion so much less than the same of second order.
 constexpr double fourth_order_relief = 0.55;

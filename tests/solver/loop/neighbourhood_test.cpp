@@ -1,4 +1,5 @@
-// Who has left its neighbours behind since they were last looked at ends the run; with discs alone there are none.
+// Who has left its neighbours behind since they were last looked at ends the run; with discs alone there are
+// none.
 #include "solver/loop/neighbourhood.hpp"
 
 #include "solver/particles/run_error.hpp"
