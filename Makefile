@@ -43,7 +43,7 @@ test-slurm: build ## A small ensemble through a Slurm cluster of this machine al
 
 test: build ## Unit tests: GoogleTest through ctest, then pytest
 	@ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure --no-tests=error
-	@$(PYTHON) -m pytest tests/python
+	@OMP_WAIT_POLICY=passive $(PYTHON) -m pytest --numprocesses=$(JOBS) --dist=loadfile tests/python
 
 test-kill: build ## Kill a run with SIGKILL at 50 random moments, resume it, and compare every bit
 	@$(PYTHON) -m pytest tests/python/test_resume.py -k killed --kills 50

@@ -75,7 +75,7 @@ void for_each_row(std::string_view text, const std::string& name, std::string_vi
 
 std::string read_bounded_file(const std::filesystem::path& path, std::size_t limit,
                               const std::string& place) {
-    const std::string name = printable(path.string());
+    const std::string name = printable_path(path);
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) {
         refuse(place, fmt::format("no regular file {}", name), "one that exists");
@@ -123,11 +123,11 @@ std::vector<double> parse_radii(std::string_view text, const std::string& name, 
 }
 
 std::vector<Vector> read_profile(const std::filesystem::path& path, const std::string& place) {
-    return parse_profile(read_bounded_file(path, largest_file, place), printable(path.string()), place);
+    return parse_profile(read_bounded_file(path, largest_file, place), printable_path(path), place);
 }
 
 std::vector<double> read_radii(const std::filesystem::path& path, const std::string& place) {
-    return parse_radii(read_bounded_file(path, largest_file, place), printable(path.string()), place);
+    return parse_radii(read_bounded_file(path, largest_file, place), printable_path(path), place);
 }
 
 } // namespace slurry

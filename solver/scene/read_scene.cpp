@@ -159,7 +159,7 @@ void load_files(Scene& scene, const Places& places) {
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& path,
                   std::span<const std::string> overrides, const Limits& limits) {
-    Node document = parse_document(text, printable(path.string()));
+    Node document = parse_document(text, printable_path(path));
     check_structure(document);
     for (const std::string& change : overrides) {
         apply_override(document, change);
@@ -177,7 +177,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
 
 Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides,
                  const Limits& limits) {
-    return parse_scene(read_bounded_file(path, largest_scene, printable(path.string())), path, overrides,
+    return parse_scene(read_bounded_file(path, largest_scene, printable_path(path)), path, overrides,
                        limits);
 }
 

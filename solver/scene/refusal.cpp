@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <numeric>
+#include <utility>
 
 namespace slurry {
 
@@ -17,6 +18,16 @@ void refuse(std::string_view place, std::string_view found, std::string_view all
     throw SceneError(message);
 }
 
+namespace {
+
+std::string one_line(std::string text) {
+    std::ranges::replace_if(
+        text, [](unsigned char character) { return character < 0x20 || character == 0x7F; }, '?');
+    return text;
+}
+
+} // namespace
+
 std::string printable(std::string_view text) {
     constexpr std::size_t longest = 80;
     std::string line(text.substr(0, longest));
@@ -27,9 +38,11 @@ std::string printable(std::string_view text) {
         }
         line.replace(line.size() - 1, 1, "...");
     }
-    std::ranges::replace_if(
-        line, [](unsigned char character) { return character < 0x20 || character == 0x7F; }, '?');
-    return line;
+    return one_line(std::move(line));
+}
+
+std::string printable_path(const std::filesystem::path& path) {
+    return one_line(path.string());
 }
 
 std::size_t edit_distance(std::string_view left, std::string_view right) {

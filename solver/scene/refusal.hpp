@@ -1,5 +1,6 @@
 #pragma once
 // The words in which a scene is refused.
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,9 @@ namespace slurry {
 // The text on one line and at most 80 characters long, so that a message stays one line whatever a file
 // holds.
 [[nodiscard]] std::string printable(std::string_view text);
+
+// The path on one line and whole: who looks for the file needs all of it.
+[[nodiscard]] std::string printable_path(const std::filesystem::path& path);
 
 // Number of insertions, deletions and substitutions from one word to the other (Levenshtein).
 [[nodiscard]] std::size_t edit_distance(std::string_view left, std::string_view right);

@@ -35,7 +35,7 @@ constexpr long checks_per_run = 50;
 long step_count(const Scene& scene, double time_step) {
     const double steps = std::ceil(scene.output.end_time / time_step * (1 - 1e-12));
     if (!(steps <= scene.limits.steps)) {
-        refuse(printable(scene.path.string()),
+        refuse(printable_path(scene.path),
                fmt::format("{:.4g} steps of {:.4g} s to output.end_time = {} (s)", steps, time_step,
                            scene.output.end_time),
                limit_text(scene.limits, &Limits::steps, steps));

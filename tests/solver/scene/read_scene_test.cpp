@@ -104,6 +104,18 @@ TEST_F(ReadScene, SaysWhereAndWhatIsAllowed) {
         "walls, discs, contact, probes, output, nearest known key fluid");
 }
 
+TEST_F(ReadScene, GivesThePathOfADistantFileWhole) {
+    const std::string name = std::string(120, 'a') + "\x01.toml";
+    write(name, "walls = 3");
+    try {
+        (void)read_scene(path(name));
+        FAIL() << "accepted";
+    } catch (const SceneError& error) {
+        const std::string shown = path(std::string(120, 'a') + "?.toml").string();
+        EXPECT_TRUE(std::string(error.what()).starts_with(shown + ":1:1: found walls")) << error.what();
+    }
+}
+
 TEST_F(ReadScene, PointsToTheTableThatHasTheKey) {
     EXPECT_TRUE(refusal(replaced(full_scene, "density = 1000", "sound_speed = 3"))
                     .ends_with("nearest known key numerics.sound_speed"));
