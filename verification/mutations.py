@@ -268,7 +268,9 @@ def judge_all(drawn: Sequence[Mutant], options: argparse.Namespace) -> list[dict
             say = f"{outcome} {drawn[number]}: {(answers[number] or {'by': ''})['by']}"
             print(f"[{head}] {say}", flush=True)
             write_report([answer for answer in answers if answer], len(drawn), options)
-    return [answer for answer in answers if answer]
+    found = [answer for answer in answers if answer]
+    write_report(found, len(drawn), options)  # reasons may have changed where no answer has
+    return found
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -180,9 +180,10 @@ template <class Kernel, class Real, int W> class PairInteractions final : public
             const double curvature = per_length_and_time * lane_of(result.normal_curvature, d - first);
             dummies.normal_velocity[d] = 0.5 * curvature * dummies.depth[d] * dummies.depth[d];
             const Vector normal{dummies.normal_x[d], dummies.normal_y[d]};
-            const double gradient = dummies.of_disc(d) ? units_.pressure() / units_.length *
-                                                             lane_of(result.pressure_gradient, d - first)
-                                                       : wall_pressure_gradient(fluid_, normal, curvature);
+            const double gradient = dummies.of_disc(d)
+                                        ? known_gradient(dummies.fluid_share[d]) * units_.pressure() /
+                                              units_.length * lane_of(result.pressure_gradient, d - first)
+                                        : wall_pressure_gradient(fluid_, normal, curvature);
             dummies.pressure[d] += units_.length * lane_of(result.pressure_lever, d - first) * gradient;
         }
     }

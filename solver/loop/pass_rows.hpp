@@ -5,21 +5,13 @@
 #include "solver/loop/row.hpp"
 #include "solver/loop/units.hpp"
 #include "solver/terms/particle_volume.hpp"
+#include "solver/terms/wall_fit.hpp"
 
 #include <algorithm>
 #include <span>
 #include <vector>
 
 namespace slurry {
-
-// How much of the velocity behind a wall the fluid before it can tell: all where it fills the room within
-// reach, nothing where it is a film of about one smoothing length, in which a disc caught between two walls
-// turned small errors into flow through them.
-inline double known_share(double fluid_share) {
-    constexpr double film = 0.7;
-    constexpr double full = 0.9;
-    return std::clamp((fluid_share - film) / (full - film), 0.0, 1.0);
-}
 
 // The fields' names are those of the views in solver/terms/views.hpp.
 template <class Real> class PassRows {
@@ -139,7 +131,7 @@ template <class Real> class PassRows {
         // Less of it where the boundary layer is thinner than the dummy is deep, and says nothing about it,
         // or a film between two solids is.
         const double reynolds = slip * dummies.depth[d] / kinematic_viscosity_;
-        const double known = known_share(dummies.fluid_share[d]) / (1 + reynolds * reynolds);
+        const double known = known_velocity(dummies.fluid_share[d]) / (1 + reynolds * reynolds);
         return own + known * (slip * along + dummies.normal_velocity[d] * left_of(along));
     }
 

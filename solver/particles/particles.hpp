@@ -47,7 +47,7 @@ struct DummyParticles {
     std::vector<double> velocity_x, velocity_y; // extrapolated, Eq. 2.16
     std::vector<double> pressure;               // extrapolated, Eq. 2.17
     std::vector<double> normal_velocity;        // m/s, against the solid: see WallContinuity::solenoidal
-    std::vector<double> fluid_share; // of the room within reach in front of a flat wall, what fluid fills
+    std::vector<double> fluid_share;            // see Extrapolation
     std::vector<double> solid_velocity_x, solid_velocity_y; // of the wall or disc, there (Eq. 2.26)
     std::vector<double> normal_x, normal_y; // of the surface at the nearest point, unit, into the fluid
     std::vector<double> start_normal_x, start_normal_y; // of a disc's, at angle 0

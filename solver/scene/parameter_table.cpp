@@ -99,8 +99,8 @@ const std::vector<Parameter> parameter_table{
      "precision of the sums over pairs; positions, velocities and densities are double always"},
     {"numerics", "", "sound_speed", member(&Numerics::sound_speed), "m/s", required, positive(),
      "artificial; 10 times the largest flow speed keeps density within 1 %"},
-    {"numerics", "", "background_pressure_ratio", member(&Numerics::background_pressure_ratio), "", 1.0,
-     between(0, 10),
+    {"numerics", "", "background_pressure_ratio", member(&Numerics::background_pressure_ratio), "",
+     Default::by_scheme(1.2, 1.0), between(0, 10),
      "background pressure over density * sound_speed^2, at most 0.85 / (sound_speed * time step / "
      "smoothing_length)^2; 0 turns the transport velocity off"},
     {"numerics", "", "acoustic_cfl", member(&Numerics::acoustic_cfl), "", Default::by_scheme(0.75, 0.25),

@@ -73,10 +73,10 @@ struct Numerics {
     double particle_spacing = 0; // m
     PairArithmetic pair_arithmetic = PairArithmetic::single_precision;
     KernelShape kernel = KernelShape::fitted_quintic;
-    double smoothing_ratio = 1;           // smoothing length / particle spacing
-    double sound_speed = 0;               // m/s
-    double background_pressure_ratio = 1; // p_b / (rho0 c^2); 0 = no transport velocity
-    double acoustic_cfl = 0.75;           // the three factors of Eq. 2.35, 0.25 there
+    double smoothing_ratio = 1;             // smoothing length / particle spacing
+    double sound_speed = 0;                 // m/s
+    double background_pressure_ratio = 1.2; // p_b / (rho0 c^2); 0 = no transport velocity
+    double acoustic_cfl = 0.75;             // the three factors of Eq. 2.35, 0.25 there
     double viscous_cfl = 0.4;
     double force_cfl = 0.25;
     double density_diffusion = 0;            // delta of delta-SPH; 0 = off

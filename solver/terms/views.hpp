@@ -117,7 +117,7 @@ template <class P> struct Extrapolation {
     P pressure_lever;         // along the normal, to the dummy: negative
     P pressure_gradient;      // along the normal, fitted
     P normal_curvature;       // second derivative, across the wall, of the velocity across it
-    P fluid_share;            // of the room within reach in front of a flat wall, what fluid fills
+    P fluid_share;            // of the room in front of a flat wall what fluid fills, weighted by distance
 };
 template <class Real> struct ExtrapolationCoefficients { Real mass; };
 

@@ -44,15 +44,17 @@ def write(out: Path, results: dict[str, Any]) -> None:
 
 def write_page(page: Path, results: Mapping[str, Any]) -> None:
     """Writes the parts of a page that the bench makes (see its markers): where it ran and the targets, and
-    the points of PAGE_CASES on one thread. Raises ValueError without the markers.
+    the points of PAGE_CASES on one thread, which stay where they were not measured. Raises ValueError
+    without the markers.
     """
     where = (
         f"{results['machine']['processor']}, {results['machine']['cores']} cores, {results['generated'][:10]}"
     )
     table = target_table(results).markdown()
     replace_between(page, "targets", f"{where}: {headline(results)}.\n\n{table}")
-    points = [p for p in results.get("speed_error", []) if p["case"] in PAGE_CASES and p["threads"] == 1]
-    replace_between(page, "points", point_table(points).markdown())
+    if "speed_error" in results:
+        points = [p for p in results["speed_error"] if p["case"] in PAGE_CASES and p["threads"] == 1]
+        replace_between(page, "points", point_table(points).markdown())
 
 
 def headline(results: Mapping[str, Any]) -> str:

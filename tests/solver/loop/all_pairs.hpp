@@ -110,19 +110,19 @@ class AllPairs {
             const Eigen::MatrixXd c = least_squares(linear, pressure);
             const Eigen::MatrixXd without_distance = least_squares(
                 linear.leftCols(2), (Eigen::MatrixXd(count, 2) << pressure, linear.col(2)).finished());
+            double moment = 0;
+            for (const auto& near : fluid) {
+                moment += near.weight * near.n;
+            }
+            dummies_.fluid_share[d] = moment * fluid_.mass / (scene_.fluid.density * h_ * h_) /
+                                      (16 * std::pow(wall_fit_support, 3) / 105);
             const double gradient =
-                dummies_.of_disc(d) ? c(2, 0)
+                dummies_.of_disc(d) ? known_gradient(dummies_.fluid_share[d]) * c(2, 0)
                                     : h_ * scene_.fluid.density * scene_.fluid.acceleration().dot(normal) +
                                           scene_.fluid.dynamic_viscosity * curvature / h_;
             dummies_.velocity_x[d] = continued.x();
             dummies_.velocity_y[d] = continued.y();
             dummies_.pressure[d] = without_distance(0, 0) + (n - without_distance(0, 1)) * gradient;
-            double weights = 0;
-            for (const auto& near : fluid) {
-                weights += near.weight;
-            }
-            dummies_.fluid_share[d] = weights * fluid_.mass / (scene_.fluid.density * h_ * h_) /
-                                      (std::numbers::pi * wall_fit_support * wall_fit_support / 6);
         }
     }
 
@@ -340,7 +340,7 @@ class AllPairs {
         const Vector slip = relative - relative.dot(normal) * normal;
         const double reynolds =
             slip.norm() * dummies_.depth[d] / std::max(scene_.fluid.kinematic_viscosity(), 1e-300);
-        return wall_velocity(d) + known_share(dummies_.fluid_share[d]) *
+        return wall_velocity(d) + known_velocity(dummies_.fluid_share[d]) *
                                       (slip + dummies_.normal_velocity[d] * normal) /
                                       (1 + reynolds * reynolds);
     }

@@ -1,4 +1,6 @@
 // The polynomials that dummies continue through their wall.
+#include "solver/terms/wall_fit.hpp"
+
 #include "tests/solver/scenes_for_tests.hpp"
 
 #include <gtest/gtest.h>
@@ -127,6 +129,40 @@ void fit_to_walls(const Scene& scene, Particles& particles) {
     interactions->extrapolate_to_walls(particles);
 }
 
+// Of the weights times the distance from a wall, over the half-plane before it, the part within `thickness`
+// smoothing lengths of it.
+double share_of_film(double thickness) {
+    return 1 - std::pow(1 - thickness * thickness / 9, 3.5);
+}
+
+TEST(KnownVelocity, IsNothingInAFilmAndAllFromTwoSmoothingLengthsOn) {
+    EXPECT_EQ(known_velocity(0), 0);
+    EXPECT_EQ(known_velocity(share_of_film(1)), 0);
+    EXPECT_EQ(known_velocity(share_of_film(2)), 1);
+    EXPECT_EQ(known_velocity(1.1), 1); // particles closer than on average
+}
+
+TEST(KnownGradient, IsNothingInAFilmAndAllFromALittleMoreThanOneSmoothingLengthOn) {
+    EXPECT_EQ(known_gradient(0), 0);
+    EXPECT_EQ(known_gradient(share_of_film(0.8)), 0);
+    EXPECT_EQ(known_gradient(share_of_film(1.1)), 1);
+    EXPECT_EQ(known_gradient(1.1), 1);
+}
+
+template <class Known> void expect_no_jump(const Known& known) {
+    double before = 0;
+    for (double share = 0; share < 1; share += 1e-3) {
+        EXPECT_GE(known(share), before);
+        EXPECT_LT(known(share), before + 0.02);
+        before = known(share);
+    }
+}
+
+TEST(WallFit, ForgetsWithoutAJump) {
+    expect_no_jump(known_velocity);
+    expect_no_jump(known_gradient);
+}
+
 TEST(WallFit, KnowsFilmsFromFluidThatFillsTheRoomBeforeAWall) {
     const Scene scene = flat_channel(12, 0.7);
     Particles full = arrange(scene);
@@ -137,7 +173,7 @@ TEST(WallFit, KnowsFilmsFromFluidThatFillsTheRoomBeforeAWall) {
     Particles film = single_row(scene);
     fit_to_walls(scene, film);
     for (const double share : film.dummies.fluid_share) {
-        EXPECT_LT(share, 0.7);
+        EXPECT_LT(share, 0.45);
     }
 }
 
