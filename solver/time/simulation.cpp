@@ -170,7 +170,7 @@ class Run {
 
     void begin() {
         if (options_.resume_from.empty()) {
-            prepare_first_step(particles_, forces_, clock_);
+            prepare_first_step(particles_, forces_, time_step_, clock_);
             recorder_.record(particles_, 0);
             return;
         }

@@ -85,7 +85,8 @@ void compute_disc_forces(Particles& particles, Forces& forces) {
 
 } // namespace
 
-void prepare_first_step(Particles& particles, Forces& forces, PhaseClock& clock) {
+void prepare_first_step(Particles& particles, Forces& forces, double time_step, PhaseClock& clock) {
+    particles.fluid.shift_time = time_step / 2; // limits the background pressure of the first shifts, too
     forces.interactions.refresh_neighbours(particles);
     compute_accelerations(particles, forces, clock);
     compute_disc_forces(particles, forces);

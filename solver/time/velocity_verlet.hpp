@@ -18,8 +18,8 @@ struct Forces {
     bool keep_mean_density = false;
 };
 
-// Accelerations of the start; needed once before the first step.
-void prepare_first_step(Particles& particles, Forces& forces, PhaseClock& clock);
+// Accelerations of the start; needed once before the first step, which is to have this length, s.
+void prepare_first_step(Particles& particles, Forces& forces, double time_step, PhaseClock& clock);
 
 // Advances the particles by one step of the given length, s.
 void advance(Particles& particles, Forces& forces, double time_step, PhaseClock& clock);

@@ -1,5 +1,6 @@
 #pragma once
 // A scene that runs step by step.
+#include "solver/time/time_step.hpp"
 #include "solver/time/velocity_verlet.hpp"
 
 #include "tests/solver/scenes_for_tests.hpp"
@@ -18,7 +19,7 @@ struct Flow {
         : scene(of), region(of), particles(std::move(start)), interactions(make_interactions(of)),
           contacts(of, region) {
         Forces acting = forces();
-        prepare_first_step(particles, acting, clock);
+        prepare_first_step(particles, acting, largest_time_step(scene), clock);
     }
     explicit Flow(const Scene& of) : Flow(of, arrange(of)) {}
 

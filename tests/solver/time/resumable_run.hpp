@@ -45,7 +45,7 @@ struct ResumableRun {
 
     void go_to(long last) {
         if (step == 0) {
-            prepare_first_step(particles, forces, clock);
+            prepare_first_step(particles, forces, 0.5 * largest_time_step(scene), clock);
         }
         for (; step < last; ++step) {
             advance(particles, forces, 0.5 * largest_time_step(scene), clock);

@@ -107,7 +107,7 @@ void run_with_fault(std::vector<double> FluidParticles::*array, double bad) {
     PhaseClock clock;
     DiscContacts contacts(scene, region);
     Forces forces{*interactions, contacts, scene.fluid, scene.numerics.sound_speed};
-    prepare_first_step(particles, forces, clock);
+    prepare_first_step(particles, forces, largest_time_step(scene), clock);
     (particles.fluid.*array)[culprit] = bad;
     for (int step = 0; step < 5; ++step) {
         advance(particles, forces, largest_time_step(scene), clock);
