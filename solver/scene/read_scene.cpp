@@ -177,8 +177,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
 
 Scene read_scene(const std::filesystem::path& path, std::span<const std::string> overrides,
                  const Limits& limits) {
-    return parse_scene(read_bounded_file(path, largest_scene, printable_path(path)), path, overrides,
-                       limits);
+    return parse_scene(read_bounded_file(path, largest_scene, printable_path(path)), path, overrides, limits);
 }
 
 } // namespace slurry
