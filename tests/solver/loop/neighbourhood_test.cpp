@@ -21,13 +21,13 @@ TEST(Neighbourhood, NamesTheParticleThatLeftItsNeighbours) {
     Particles particles = arrange(scene);
     Neighbourhood neighbourhood = neighbourhood_of(scene);
     neighbourhood.refresh(particles);
-    const std::size_t third = 3;
-    particles.fluid.x[third] += 6 * scene.numerics.particle_spacing;
+    const std::size_t moved = 3;
+    particles.fluid.x[moved] += 6 * scene.numerics.particle_spacing;
     try {
         neighbourhood.refresh(particles);
         FAIL() << "went on";
     } catch (const RunError& error) {
-        const std::string name = "particle " + std::to_string(particles.fluid.identity[third]) + " at";
+        const std::string name = "particle " + std::to_string(particles.fluid.identity[moved]) + " at";
         EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
     }
 }
