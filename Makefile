@@ -75,9 +75,9 @@ baseline: setup ## Accept the last results as verification/baseline.json, for re
 bench: build ## Speed against error and the speed targets (build/bench, speed.md); leave the machine alone meanwhile
 	@$(PYTHON) -m verification.bench --page verification/speed.md
 
-bench-peers: build ## PySPH (installed when missing) on flows of ours beside our solver, into the report of bench
+bench-peers: build ## PySPH (installed when missing) on flows of ours beside our solver (report of bench, speed.md)
 	@scripts/setup python3-pysph
-	@$(PYTHON) -m verification.bench.peers
+	@$(PYTHON) -m verification.bench.peers --page verification/speed.md
 
 bands: build ## Hold the bands of `slurry converge` against flows with a known truth (build/converge, accuracy.md)
 	@$(PYTHON) -m verification.converge --page verification/accuracy.md

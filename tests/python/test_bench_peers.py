@@ -17,7 +17,10 @@ def peer(monkeypatch):
 
 
 def run(tmp_path, *arguments):
-    status = peers.main(["--solver", sys.executable, "--out", str(tmp_path), *arguments], load)
+    page = tmp_path / "speed.md"
+    page.write_text("<!-- peers:begin -->\n<!-- peers:end -->\n")
+    places = ["--solver", sys.executable, "--out", str(tmp_path), "--page", str(page)]
+    status = peers.main([*places, *arguments], load)
     return status, json.loads((tmp_path / "peers.json").read_text())
 
 
@@ -33,6 +36,7 @@ def test_every_example_stands_beside_ours(peer, tmp_path, capsys):
     assert len(ours) == len(results["ours"]) == 8  # the two Taylor-Green examples share theirs
     assert all(row["errors"]["velocity"] > 0 and row["own_errors"]["l1"] > 0 for row in results["ours"])
     assert "| PySPH | couette | tvf |" in capsys.readouterr().out
+    assert "| PySPH | couette | tvf |" in (tmp_path / "speed.md").read_text()
 
 
 @pytest.mark.parametrize(

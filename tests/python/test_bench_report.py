@@ -45,7 +45,7 @@ def results(**changes):
     facts = {"commit": "c", "generated": "now", "machine": machine, "load_average_at_start": 0.0}
     facts |= {"notes": ["a key is missing"], "failures": [], "references": [], "speed_error": speed_points()}
     content = measured() | facts
-    content["machine_bench"]["search"] = search()
+    content["machine_bench"] |= {"search": search(), "fma_peak_gflops": {"float": {"one_core": 100.0}}}
     for row in content["scaling"]["rows"]:
         row |= {
             "particles": round(row["spacing_m"] ** -2),
@@ -64,7 +64,8 @@ def test_a_page_gets_the_targets_and_the_points_of_one_thread(tmp_path):
     report.write(tmp_path, found)
     report.write_page(page, found)
     text = page.read_text()
-    assert "p, 2 cores, now: 13 targets met, 0 missed, 0 skipped." in text
+    peak = "100 Gflop/s of fused multiply-adds in float on one core"
+    assert f"p, 2 cores, {peak}, now: 13 targets met, 0 missed, 0 skipped." in text
     assert text.count("| taylor_green, re_100 |") == 4
     assert "\nkept\n" in text
     page.write_text("no markers")
@@ -95,7 +96,7 @@ def test_failures_colour_the_page_whatever_the_targets(tmp_path):
     assert "1 FAILED" in (tmp_path / "report.md").read_text()
 
 
-def test_peers_appear_beside_ours(tmp_path):
+def peer_results():
     run = {
         "code": "PySPH",
         "case": "taylor_green",
@@ -109,18 +110,25 @@ def test_peers_appear_beside_ours(tmp_path):
         "errors": {"velocity": 0.03},
         "own_errors": {"l1": 0.02},
         "set": {},
+        "failure": "",
     }
-    peers = {
-        "description": "Another code.",
-        "generated": "now",
-        "commit": "c",
-        "runs": [run | {"failure": ""}],
-    }
-    write_json(tmp_path / "peers.json", peers | {"ours": []})
-    report.write(tmp_path, results())
-    assert (
-        "| PySPH | taylor_green | edac | double | 2500 | 4400 | 30 |" in (tmp_path / "report.md").read_text()
-    )
+    machine = {"processor": "q", "cores": 1}
+    facts = {"description": "Another code.", "generated": "then", "commit": "c", "machine": machine}
+    return facts | {"pysph": {"version": "1.0", "compiler_flags": "-O3"}, "runs": [run], "ours": []}
+
+
+def test_peers_appear_beside_ours(tmp_path):
+    row = "| PySPH | taylor_green | edac | double | 2500 | 4400 | 30 |"
+    write_json(tmp_path / "peers.json", peer_results())
+    found = results()
+    report.write(tmp_path, found)
+    assert row in (tmp_path / "report.md").read_text()
+    page = tmp_path / "speed.md"
+    names = ("targets", "points", "peers")
+    page.write_text("".join(f"<!-- {name}:begin -->\n<!-- {name}:end -->\n" for name in names))
+    report.write_page(page, found)
+    assert row in page.read_text()
+    assert "q, 1 cores, then; PySPH 1.0, -O3. Another code." in page.read_text()
 
 
 def test_no_data_no_figure():

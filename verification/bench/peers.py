@@ -164,7 +164,9 @@ def measure_peers(session: Session) -> dict[str, Any]:
 
 
 def main(argv: Sequence[str] | None = None, load: LoadReference = load_reference) -> int:
-    options = parser("python -m verification.bench.peers", __doc__).parse_args(argv)
+    arguments = parser("python -m verification.bench.peers", __doc__)
+    arguments.add_argument("--page", type=Path, help="a page with the markers of peers, and those of bench")
+    options = arguments.parse_args(argv)
     try:
         version = ask([SYSTEM_PYTHON, "-c", "import pysph; print(pysph.__version__)"]).split()[-1]
         session = Session(options.solver, options.out, load_plan(options.quick), References(load))
@@ -187,9 +189,14 @@ def main(argv: Sequence[str] | None = None, load: LoadReference = load_reference
     }
     write_json(options.out / report.PEERS, peers)
     print(report.peer_table(peers).markdown())
+    if options.page:
+        report.write_peers(options.page, peers)
     stored = options.out / report.RESULTS
     if stored.exists():
-        report.write(options.out, json.loads(stored.read_text()))
+        results = json.loads(stored.read_text())
+        report.write(options.out, results)
+        if options.page:  # a target is held against the other code's time
+            report.write_page(options.page, results)
         print(options.out / "report.html")
     for failure in session.failures:
         print(f"FAILED: {failure}")

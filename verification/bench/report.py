@@ -44,17 +44,32 @@ def write(out: Path, results: dict[str, Any]) -> None:
 
 def write_page(page: Path, results: Mapping[str, Any]) -> None:
     """Writes the parts of a page that the bench makes (see its markers): where it ran and the targets, and
-    the points of PAGE_CASES on one thread, which stay where they were not measured. Raises ValueError
-    without the markers.
+    the points of PAGE_CASES on one thread and the runs of another code, which stay where they were not
+    measured. Raises ValueError without the markers.
     """
-    where = (
-        f"{results['machine']['processor']}, {results['machine']['cores']} cores, {results['generated'][:10]}"
-    )
     table = target_table(results).markdown()
-    replace_between(page, "targets", f"{where}: {headline(results)}.\n\n{table}")
+    replace_between(page, "targets", f"{where(results)}: {headline(results)}.\n\n{table}")
     if "speed_error" in results:
         points = [p for p in results["speed_error"] if p["case"] in PAGE_CASES and p["threads"] == 1]
         replace_between(page, "points", point_table(points).markdown())
+    if results.get("peers"):
+        write_peers(page, results["peers"])
+
+
+def write_peers(page: Path, peers: Mapping[str, Any]) -> None:
+    """Writes another code's runs and ours beside them into a page; ValueError without the markers."""
+    version = f"PySPH {peers['pysph']['version']}, {peers['pysph']['compiler_flags']}"
+    text = f"{where(peers)}; {version}. {peers['description']}\n\n{peer_table(peers).markdown()}"
+    replace_between(page, "peers", text)
+
+
+def where(results: Mapping[str, Any]) -> str:
+    """The machine and the day; with `slurry bench`, what the machine can do at most, whatever its name."""
+    machine, bench = results["machine"], results.get("machine_bench") or {}
+    peak = bench.get("fma_peak_gflops", {}).get("float", {}).get("one_core")
+    facts = [machine["processor"], f"{machine['cores']} cores"]
+    facts += [f"{number(peak)} Gflop/s of fused multiply-adds in float on one core"] if peak else []
+    return ", ".join([*facts, results["generated"][:10]])
 
 
 def headline(results: Mapping[str, Any]) -> str:

@@ -176,7 +176,7 @@ class Session:
     def shortened(self, job: Job, steps: int) -> Job:
         """The job cut to about so many steps, with as little output as a run can have."""
         command = [str(self.solver), "info", str(job.case.scene_path)]
-        # A start that need not be relaxed, which takes minutes for millions of particles: the time step is the same.
+        # To relax millions of particles takes minutes, and the time step is the same without.
         for setting in [*job.run.settings(), *job.solver_settings(), 'start.arrangement="lattice"']:
             command += ["--set", setting]
         step = re.search(r"^time step\s+(\S+) s", ask(command), re.MULTILINE)
