@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test test-kill reference verify stability report faults mutations claims baseline bench bench-peers bands ablation counts figures plot movie test-slurm lint sanitize fuzz flows format docs clean
+.PHONY: help setup configure build test test-kill reference verify stability report faults mutations claims baseline bench bench-peers bands ablation operators counts figures plot movie test-slurm lint sanitize fuzz flows format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -84,6 +84,9 @@ bands: build ## Hold the bands of `slurry converge` against flows with a known t
 
 ablation: build ## Errors with one key changed at a time: the table of verification/accuracy.md
 	@$(PYTHON) -m verification.ablation
+
+operators: build ## Errors of the sums over pairs on the exact field: another table of verification/accuracy.md
+	@$(PYTHON) -m verification.operators
 
 counts: setup ## Instructions of a step (valgrind) against verification/counts.json; the exit status is the verdict
 	@env -u MAKEFLAGS -u MFLAGS $(PYTHON) -m verification.counts --jobs $(JOBS)
