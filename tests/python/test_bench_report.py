@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from test_bench_verdicts import measured
+from test_bench_verdicts import channel_points, measured
 
 from verification.bench import figures, report
 from verification.bench.files import write_json, write_whole
@@ -43,7 +43,10 @@ def search():
 def results(**changes):
     machine = {"processor": "p", "cores": 2, "system": "s"}
     facts = {"commit": "c", "generated": "now", "machine": machine, "load_average_at_start": 0.0}
-    facts |= {"notes": ["a key is missing"], "failures": [], "references": [], "speed_error": speed_points()}
+    facts |= {"notes": ["a key is missing"], "failures": [], "references": []}
+    facts["speed_error"] = speed_points() + [
+        p | {"fluid_particles": 400, "particle_steps_per_s": 1e7, "steps": 10} for p in channel_points()
+    ]
     content = measured() | facts
     content["machine_bench"] |= {"search": search(), "fma_peak_gflops": {"float": {"one_core": 100.0}}}
     for row in content["scaling"]["rows"]:
@@ -65,7 +68,7 @@ def test_a_page_gets_the_targets_and_the_points_of_one_thread(tmp_path):
     report.write_page(page, found)
     text = page.read_text()
     peak = "100 Gflop/s of fused multiply-adds in float on one core"
-    assert f"p, 2 cores, {peak}, now: 13 targets met, 0 missed, 0 skipped." in text
+    assert f"p, 2 cores, {peak}, now: 15 targets met, 0 missed, 0 skipped." in text
     assert text.count("| taylor_green, re_100 |") == 4
     assert "\nkept\n" in text
     page.write_text("no markers")
@@ -76,18 +79,18 @@ def test_a_page_gets_the_targets_and_the_points_of_one_thread(tmp_path):
 def test_the_report_has_targets_figures_and_notes(tmp_path, capsys):
     report.write(tmp_path, results())
     text = (tmp_path / "report.md").read_text()
-    assert "**13 targets met, 0 missed, 0 skipped**" in text
+    assert "**15 targets met, 0 missed, 0 skipped**" in text
     assert "a key is missing" in text
-    for name in ("error-taylor_green-re_100", "scaling", "search"):
+    for name in ("error-taylor_green-re_100", "error-rough_channel-v", "scaling", "search"):
         assert f"](figures/{name}.png)" in text
         assert (tmp_path / "figures" / f"{name}.png").stat().st_size > 5000
     page = (tmp_path / "report.html").read_text()
-    assert page.count("data:image/png;base64,") == 3
+    assert page.count("data:image/png;base64,") == 4
     assert "class='verdict passed'" in page
     html.parser.HTMLParser().feed(page)
     stored = json.loads((tmp_path / "speed_error.json").read_text())
     report.print_targets(stored)
-    assert capsys.readouterr().out.count("MET: ") == 13
+    assert capsys.readouterr().out.count("MET: ") == 15
 
 
 def test_failures_colour_the_page_whatever_the_targets(tmp_path):

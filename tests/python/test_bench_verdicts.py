@@ -13,6 +13,21 @@ def point(**changes):
     return plain | {"errors": {}, "failure": "", "variant": "v", "build": "this"} | changes
 
 
+def channel_points():
+    """Of the rough channel: the default scheme is within 1 % at once, the paper's never."""
+    channel = {"case": "rough_channel", "threads": 2}
+    return [
+        point(**channel, scheme=scheme, spacing_m=spacing, wall_s=wall, step_s=step)
+        | {"errors": {"wafer_shear": error}}
+        for scheme, spacing, wall, step, error in (
+            ("default", 5e-7, 0.3, 1e-4, 0.003),
+            ("default", 2.5e-7, 1.4, 3e-4, 0.002),
+            ("wang2014", 5e-7, 0.9, 1e-4, 0.04),
+            ("wang2014", 2.5e-7, 5.0, 4e-4, 0.02),
+        )
+    ]
+
+
 def measured(**changes):
     """Results that meet every target."""
     rates = [
@@ -32,7 +47,7 @@ def measured(**changes):
         for spacing, cost in sizes
         for threads in (1, 2)
     ]
-    sweep = {"arithmetic": "float", "sweep": "forces", "share_of_fma_peak": 0.3}
+    sweep = {"arithmetic": "float", "sweep": "forces", "share_of_fma_peak": 0.3, "share_of_port_bound": 0.8}
     runs = {
         "rate": rates,
         "steady": [point(wall_s=40.0, errors={"velocity": 1e-3}) for _ in range(2)],
@@ -43,6 +58,7 @@ def measured(**changes):
         ],
     }
     sections = {"target_runs": runs, "scaling": {"rows": rows}, "machine_bench": {"pair_sweeps": [sweep]}}
+    sections |= {"speed_error": channel_points()}
     return {"quick": False, "peers": None, **sections, **changes}
 
 
@@ -78,6 +94,8 @@ def test_missing_numbers_are_missed_not_met():
     for row in results["scaling"]["rows"][-2:]:
         row |= {"ns_per_particle_step": None, "bytes_per_particle": None}
     results["machine_bench"]["pair_sweeps"].append({"arithmetic": "float", "sweep": "density"})
+    for row in results["speed_error"]:
+        row |= {"errors": {}, "step_s": None}
     rows = by_measure(results)
     met = {name for name, row in rows.items() if row["status"] == MET}
     assert met == {"decay.seconds"}
@@ -127,3 +145,19 @@ def test_a_solver_without_a_choice_of_arithmetic_skips_double():
     assert rows["rate.float.2"]["status"] == MET
     assert rows["rate.double.1"]["status"] == SKIPPED
     assert rows["rate.avx2_share"]["value"] == pytest.approx(7 / 11)
+
+
+def test_the_paper_s_scheme_is_the_yardstick():
+    rows = by_measure(measured())
+    assert rows["paper.time_to_error"]["value"] == pytest.approx(0.3 / 5.0)
+    assert "wang2014 5 s at 2 %" in rows["paper.time_to_error"]["note"]
+    assert rows["paper.step_cost"]["value"] == pytest.approx(0.75)
+
+
+def test_a_default_that_never_comes_within_the_error_meets_nothing():
+    points = [p | {"errors": {"wafer_shear": 0.02}} for p in channel_points()]
+    assert by_measure(measured(speed_error=points))["paper.time_to_error"]["status"] == MISSED
+
+
+def test_what_the_ports_allow_stands_beside_the_share_of_the_peak():
+    assert "of what the ports allow: forces 80 %" in by_measure(measured())["machine.share_of_peak"]["note"]
