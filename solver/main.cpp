@@ -5,6 +5,7 @@
 #include "solver/discs/placement.hpp"
 #include "solver/geometry/geometry_error.hpp"
 #include "solver/geometry/region.hpp"
+#include "solver/geometry/start_jump.hpp"
 #include "solver/output/partial_file.hpp"
 #include "solver/output/result_file.hpp"
 #include "solver/particles/arrangement.hpp"
@@ -86,6 +87,7 @@ Scene scene_of(const Arguments& arguments, const std::filesystem::path& checkpoi
     Scene scene = arguments.scene.empty() ? read_checkpoint_scene(checkpoint, overrides, limits)
                                           : read_scene(arguments.scene, overrides, limits);
     std::ranges::for_each(scene.warnings, warn);
+    std::ranges::for_each(start_jump_warnings(scene), warn);
     return scene;
 }
 

@@ -8,6 +8,7 @@
 #include "solver/scene/profile.hpp"
 #include "solver/scene/refusal.hpp"
 #include "solver/scene/resolved.hpp"
+#include "solver/scene/stability_checks.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -172,6 +173,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
     scene.resolved_text = resolved_text(scene); // before paths are made relative to this process
     load_files(scene, places);
     scene.warnings = check_disc_sizes(scene, places);
+    std::ranges::move(check_cell_reynolds(scene, places), std::back_inserter(scene.warnings));
     return scene;
 }
 

@@ -9,6 +9,7 @@
 #include "solver/scene/refusal.hpp"
 #include "solver/terms/selection.hpp"
 #include "solver/time/checkpoint_folder.hpp"
+#include "solver/time/density_error.hpp"
 #include "solver/time/interruption.hpp"
 #include "solver/time/recorder.hpp"
 #include "solver/time/time_step.hpp"
@@ -143,6 +144,10 @@ class Run {
         if (!options_.quiet) {
             print_summary(summary, particles_, clock_);
         }
+        if (const std::string text = density_warning(summary.result, scene_, region_, time_step_);
+            !text.empty()) {
+            warn(text);
+        }
         return summary;
     }
 
@@ -199,9 +204,7 @@ class Run {
                              sums_->list_statistics(particles_));
     }
 
-    void check() const {
-        check_particles(particles_, region_, scene_.fluid.density, scene_.numerics.particle_spacing, step_);
-    }
+    void check() const { check_particles(particles_, region_, scene_, step_); }
 
     void stop_if_interrupted() {
         if (const char* signal = Interruption::signal_name()) {

@@ -1,6 +1,7 @@
 #include "solver/time/watchdog.hpp"
 
 #include "solver/discs/clearance.hpp"
+#include "solver/time/density_error.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@ namespace slurry {
 namespace {
 
 [[noreturn]] void stop(const Particles& particles, std::size_t i, long step, const std::string& fault,
-                       const char* advice) {
+                       const std::string& advice) {
     const FluidParticles& fluid = particles.fluid;
     throw RunError(fmt::format("step {}, time {:.6g} s, particle {} at ({:.6g}, {:.6g}) m: {}; {}", step,
                                particles.time, fluid.identity[i], fluid.x[i], fluid.y[i], fault, advice));
@@ -57,6 +58,24 @@ std::size_t first_in_disc(const Particles& particles, const Domain& domain, doub
     return first;
 }
 
+double fastest(const FluidParticles& fluid) {
+    double speed = 0;
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        speed = std::max(speed, std::hypot(fluid.velocity_x[i], fluid.velocity_y[i]));
+    }
+    return speed;
+}
+
+[[noreturn]] void stop_for_density(const Particles& particles, const Region& region, const Scene& scene,
+                                   std::size_t i, long step) {
+    const FluidParticles& fluid = particles.fluid;
+    const DensityFault fault{particles.time, fastest(fluid),
+                             gap_around(particles, region, {fluid.x[i], fluid.y[i]}),
+                             largest_start_jump(scene, region.walls())};
+    stop(particles, i, step, fmt::format("its density is {:.6g} kg/m3, more than 10 % off", fluid.density[i]),
+         density_advice(scene, fault));
+}
+
 void check_discs(const Particles& particles, long step) {
     for (const Disc& disc : particles.discs) {
         if (!disc.position.allFinite() || !disc.velocity.allFinite() || !std::isfinite(disc.spin)) {
@@ -70,9 +89,9 @@ void check_discs(const Particles& particles, long step) {
 
 } // namespace
 
-void check_particles(const Particles& particles, const Region& region, double reference_density,
-                     double particle_spacing, long step) {
+void check_particles(const Particles& particles, const Region& region, const Scene& scene, long step) {
     constexpr double largest_density_error = 0.1;
+    const double particle_spacing = scene.numerics.particle_spacing;
     const FluidParticles& fluid = particles.fluid;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
         const double sum =
@@ -81,10 +100,8 @@ void check_particles(const Particles& particles, const Region& region, double re
             stop(particles, i, step, "its state is not a finite number",
                  "reduce numerics.acoustic_cfl, or check walls and start for particles that coincide");
         }
-        if (std::abs(fluid.density[i] / reference_density - 1) > largest_density_error) {
-            stop(particles, i, step,
-                 fmt::format("its density is {:.6g} kg/m3, more than 10 % off", fluid.density[i]),
-                 "raise numerics.sound_speed to 10 times the top speed or reduce numerics.acoustic_cfl");
+        if (std::abs(fluid.density[i] / scene.fluid.density - 1) > largest_density_error) {
+            stop_for_density(particles, region, scene, i, step);
         }
     }
     check_discs(particles, step);

@@ -105,8 +105,7 @@ void CheckpointTarget::read_and_step() {
     PhaseClock clock;
     read_checkpoint(path_, identity_, {run_.step, run_.particles, *run_.sums, run_.contacts, result, clock});
     advance(run_.particles, run_.forces, 0.5 * largest_time_step(run_.scene), clock);
-    check_particles(run_.particles, run_.region, run_.scene.fluid.density,
-                    run_.scene.numerics.particle_spacing, run_.step);
+    check_particles(run_.particles, run_.region, run_.scene, run_.step);
     result.begin_sample(run_.particles.time);
     result.add_sample("kinetic_energy", "J/m", 0);
 }

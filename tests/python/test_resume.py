@@ -129,6 +129,35 @@ def test_interrupted_and_resumed(alone: Path, interrupted: Path, threads: int, n
     assert_same_result(interrupted, alone)
 
 
+def test_resumed_run_warns_of_the_density_before_its_checkpoint(tmp_path: Path) -> None:
+    """The start, where the density is off, is in the interrupted part."""
+    scene = tmp_path / "scene.toml"
+    jump = {
+        "velocity = [1.0, 0.0]": "",
+        "crest = 0.0": "velocity = [1.0, 0.0]",
+        "spacing = 2.5e-7": "spacing = 1e-6",
+        "end_time = 9e-5": "end_time = 6e-4\nseries_samples = 8001",
+    }
+    text = (ROOT / "verification/rough_channel/scene.toml").read_text()
+    for old, new in jump.items():
+        assert old in text
+        text = text.replace(old, new)
+    scene.write_text(text)
+    whole = slurry("run", scene, "--quiet", cwd=tmp_path)
+    folder = tmp_path / "interrupted"
+    process = start(scene, folder, threads=1)
+    while not (folder / "checkpoint.previous.h5").exists():
+        time.sleep(1e-3)
+        assert process.poll() is None
+    process.send_signal(signal.SIGTERM)
+    process.communicate()
+    assert process.returncode == 4
+    done = slurry("run", "--resume", folder, "--quiet", cwd=tmp_path)
+    said, expected = (ended.stderr.splitlines()[-1].split(": ")[2:] for ended in (done, whole))
+    assert done.returncode == 0 and "the density was up to" in said[0]
+    assert said == expected
+
+
 def test_damaged_checkpoint_is_seen_and_the_one_before_taken(alone: Path, interrupted: Path) -> None:
     checkpoint = interrupted / "checkpoint.h5"
     data = bytearray(checkpoint.read_bytes())

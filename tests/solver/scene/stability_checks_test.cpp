@@ -93,5 +93,24 @@ TEST_F(SceneFolder, RandomDiscsThatWouldBeThrownApartAreRefused) {
     }
 }
 
+// nu = 0.02 m2/s, a spacing of 0.1 m: 5 at 1 m/s.
+TEST_F(SceneFolder, CellReynoldsNumbersBeyondWhatIsKnownToBeAccurateAreWarnedOf) {
+    const auto warnings = [&](const Words& more) {
+        Words settings{"fluid.dynamic_viscosity=20", "start.velocity=\"rest\"", "start.speed=0"};
+        settings.insert(settings.end(), more.begin(), more.end());
+        return read(full_scene, settings).warnings;
+    };
+    EXPECT_TRUE(warnings({"walls.line.velocity=[-10, 0]"}).empty());
+    const Words found = warnings({"walls.line.velocity=[-10.1, 0]"});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_TRUE(found[0].ends_with(
+        "scene.toml:10:20: found numerics.particle_spacing = 0.1 with a wall at 10.1 (m/s), a cell Reynolds "
+        "number of 50.5, advised at most 50: a particle_spacing of at most 0.09901 (m), or the layers along "
+        "walls are not resolved"))
+        << found[0];
+    EXPECT_TRUE(warnings({"fluid.dynamic_viscosity=1e-6", "fluid.body_force=[1, 0]"}).empty());
+    EXPECT_TRUE(warnings({"walls.line.velocity=[-10.1, 0]", "start.arrangement=\"empty\""}).empty());
+}
+
 } // namespace
 } // namespace slurry::test

@@ -26,9 +26,7 @@ struct Watched {
         particles.fluid.x[culprit] = 0.25;
         particles.fluid.y[culprit] = 0.75;
     }
-    void check() const {
-        check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing, 89);
-    }
+    void check() const { check_particles(particles, region, scene, 89); }
     [[nodiscard]] std::string complaint() const {
         try {
             check();
@@ -92,9 +90,9 @@ TEST(Watchdog, FollowsWallsThatMove) {
                    {"pad", CosineShape{0.5, 0.2, 3, 0}, FluidSide::above, {1, 0}}};
     const Region region(scene);
     Particles particles = arrange_particles(scene, region);
-    EXPECT_NO_THROW(check_particles(particles, region, 1000, 0.2, 1));
+    EXPECT_NO_THROW(check_particles(particles, region, scene, 1));
     particles.time = 1.5; // half a period later the crest is where the trough was
-    EXPECT_THROW(check_particles(particles, region, 1000, 0.2, 2), RunError);
+    EXPECT_THROW(check_particles(particles, region, scene, 2), RunError);
 }
 
 // Five steps after a fault was planted in one particle: the machinery in between survives, and the watchdog
@@ -112,7 +110,7 @@ void run_with_fault(std::vector<double> FluidParticles::*array, double bad) {
     for (int step = 0; step < 5; ++step) {
         advance(particles, forces, largest_time_step(scene), clock);
     }
-    check_particles(particles, region, scene.fluid.density, scene.numerics.particle_spacing, 5);
+    check_particles(particles, region, scene, 5);
 }
 
 TEST(Watchdog, SeesANumberThatIsNotFiniteSomeStepsLater) {

@@ -1,0 +1,116 @@
+#include "solver/time/density_error.hpp"
+
+#include "solver/discs/nearest_image.hpp"
+#include "solver/output/hdf5_reader.hpp"
+#include "solver/scene/refusal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace slurry {
+namespace {
+
+// The equation of state keeps the density within 1 % up to here.
+constexpr double largest_speed_share = 0.1; // of the sound speed
+constexpr double fewest_across_a_gap =
+    5; // spacings: they resolve a parabola (verification/stability/thin_gap)
+
+// Of what the scene moves itself, m/s.
+double driven_speed(const Scene& scene) {
+    double speed = std::abs(scene.start.speed);
+    for (const WallScene& wall : scene.walls) {
+        speed = std::max(speed, wall.velocity.norm());
+    }
+    for (const DiscScene& disc : scene.discs) {
+        speed = std::max(speed, disc.velocity.norm());
+    }
+    return speed;
+}
+
+std::string speed_advice(const char* who, double speed, double sound_speed) {
+    return fmt::format("{} up to {:.4g} m/s, {:.3g} of numerics.sound_speed, allowed {}: raise "
+                       "numerics.sound_speed to {:.4g}",
+                       who, speed, speed / sound_speed, largest_speed_share, speed / largest_speed_share);
+}
+
+struct Side {
+    double distance; // m
+    Vector normal;   // unit, into the fluid
+};
+
+} // namespace
+
+std::string density_advice(const Scene& scene, const DensityFault& fault) {
+    const Numerics& numerics = scene.numerics;
+    const double sound_speed = numerics.sound_speed;
+    const double limit = largest_speed_share * sound_speed * (1 + 1e-9);
+    if (const double driven = driven_speed(scene); driven > limit) {
+        return speed_advice("walls, discs or the start move at", driven, sound_speed);
+    }
+    const bool sound_still_crosses = fault.time * sound_speed < scene.domain.size().maxCoeff();
+    if (sound_still_crosses && fault.jump.speed > largest_trusted_jump * sound_speed) {
+        return fmt::format("the wall '{}' starts at once at {:.4g} m/s across its surface, {:.3g} of "
+                           "numerics.sound_speed, allowed {}: {}",
+                           fault.jump.wall, fault.jump.speed, fault.jump.speed / sound_speed,
+                           largest_trusted_jump, start_jump_advice(scene, fault.jump));
+    }
+    if (numerics.background_pressure_ratio == 0) {
+        return "particles clump where nothing spaces them: set numerics.background_pressure_ratio to 1 "
+               "instead "
+               "of 0";
+    }
+    // Fluid at the speed of sound shows that the run went wrong, not why.
+    if (fault.fluid_speed > limit && fault.fluid_speed < sound_speed) {
+        return speed_advice("the fluid moves at", fault.fluid_speed, sound_speed);
+    }
+    if (const double across = fault.gap / numerics.particle_spacing; across < fewest_across_a_gap) {
+        return fmt::format("it is in a gap of {:.3g} particle spacings, advised at least {}: reduce "
+                           "numerics.particle_spacing to {:.4g}, or raise numerics.sound_speed",
+                           across, fewest_across_a_gap, fault.gap / fewest_across_a_gap);
+    }
+    return "reduce numerics.acoustic_cfl, or raise numerics.sound_speed: the density error of a flow falls "
+           "with "
+           "its square";
+}
+
+double gap_around(const Particles& particles, const Region& region, const Vector& place) {
+    std::vector<Side> sides;
+    for (const Wall& wall : region.walls()) {
+        const NearestPoint nearest = wall.nearest(place - wall.displacement(particles.time));
+        sides.push_back({nearest.distance, nearest.normal});
+    }
+    for (const Disc& disc : particles.discs) {
+        const Vector from_centre = nearest_image(place - disc.position, region.domain());
+        sides.push_back({from_centre.norm() - disc.radius, from_centre.normalized()});
+    }
+    if (sides.size() < 2) {
+        return std::numeric_limits<double>::infinity();
+    }
+    std::ranges::nth_element(sides, sides.begin() + 1, {}, &Side::distance);
+    return sides[0].normal.dot(sides[1].normal) < 0 ? sides[0].distance + sides[1].distance
+                                                    : std::numeric_limits<double>::infinity();
+}
+
+std::string density_warning(const std::filesystem::path& result, const Scene& scene, const Region& region,
+                            double time_step) {
+    const Hdf5Reader reader(result);
+    const std::vector<double> errors = reader.table("/series/largest_density_error").values;
+    const auto worst = std::ranges::max_element(errors);
+    if (!(*worst > largest_trusted_density_error)) {
+        return {};
+    }
+    const auto sample = static_cast<std::size_t>(worst - errors.begin());
+    DensityFault fault;
+    fault.time = reader.table("/series/time").values[sample];
+    fault.fluid_speed = reader.table("/series/largest_speed").values[sample];
+    fault.jump = largest_start_jump(scene, region.walls());
+    return fmt::format(
+        "{}: the density was up to {:.3g} % off, at step {}, time {:.6g} s; allowed {:g} %: do not "
+        "trust pressures and forces of around then; {}",
+        printable_path(result), 100 * *worst, std::lround(fault.time / time_step), fault.time,
+        100 * largest_trusted_density_error, density_advice(scene, fault));
+}
+
+} // namespace slurry
