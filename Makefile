@@ -61,7 +61,7 @@ report: setup ## Write the report again from the last results (build/verify/repo
 	@$(PYTHON) -m verification.report
 
 faults: build ## Plant each known fault and show that the named checks fail
-	@$(PYTHON) -m verification.faults
+	@$(PYTHON) -m verification.faults --page verification/faults.md
 
 mutations: build ## Plant small faults in the physics by machine; at least 90 % must be caught (about an hour; resumes)
 	@$(PYTHON) -m verification.mutations --page verification/mutations.md

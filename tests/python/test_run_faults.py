@@ -154,3 +154,17 @@ def test_a_copy_has_every_folder_that_the_build_reads() -> None:
     read = set(re.findall(r"\b((?:tests/)?[a-z]+)/[\w*/]*\.(?:cpp|hpp|cmake)", lists))
     assert {"solver", "tests/solver", "tests/fuzz"} <= read
     assert read - {"generated"} <= set(faults.SOURCES)  # generated: in the build folder
+
+
+def test_the_page_lists_every_fault_with_what_was_said(tmp_path):
+    one = Fault("one", **COUETTE, checks=CHECKS, set=("start.seed=2",))
+    two = Fault("two", **COUETTE, checks=CHECKS, file="solver/a.hpp", find="1", replace="2")
+    stopped = "velocity: exit status 3: step 8 | too dense; its state is in /somewhere/failed.h5"
+    page = tmp_path / "faults.md"
+    faults.write_page(page, [(one, "DETECTED", stopped), (two, "MISSED", "velocity stays green")])
+    lines = page.read_text().splitlines()
+    assert "**1 of 2 caught**" in lines[2]
+    assert lines[-2] == (
+        "| one | the scene | couette | DETECTED | velocity: exit status 3: step 8 / too dense |"
+    )
+    assert lines[-1] == "| two | solver/a.hpp | couette | MISSED | velocity stays green |"
