@@ -146,8 +146,8 @@ def fits(points: Sequence[Point]) -> dict[str, Any]:
 def of_runs(out: Path, load: Callable[..., Reference] = load_reference) -> dict[str, Any]:
     """Fits of the runs that out/results.json lists, and of finite elements at the same points."""
     case = load_case(CASE)
-    listed = json.loads((out / "results.json").read_text())["cases"]
-    finest = {e["variant"]: e for e in listed if e["case"] == CASE and e["finest"]}
+    results = json.loads((out / "results.json").read_text())
+    finest = {e["variant"]: e for e in results["cases"] if e["case"] == CASE and e["finest"]}
     if not finest:
         raise DataError(f"{out / 'results.json'} has no run of {CASE}: make verify LEVEL=paper")
     ours, truth = [], []
@@ -158,7 +158,7 @@ def of_runs(out: Path, load: Callable[..., Reference] = load_reference) -> dict[
         ours.append(measured(case, variant, Result(folder / "result.h5", scene["output"]["end_time"], scene)))
         cache = ROOT.parent / "build" / "reference"
         truth.append(exact(case, variant, load(REFERENCE, case.scene_path, dict(variant.set), cache)))
-    return _with_paper({"sph": fits(ours), "finite_elements": fits(truth)})
+    return _with_paper({"level": results["level"], "sph": fits(ours), "finite_elements": fits(truth)})
 
 
 def _with_paper(found: dict[str, Any]) -> dict[str, Any]:

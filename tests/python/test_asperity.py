@@ -72,12 +72,13 @@ def test_runs_are_fitted_beside_finite_elements(tmp_path):
         write_run(tmp_path / "runs" / CASE / "default" / variant.name / "2e-07" / "result.h5", factor, end, X)
         facts = {"case": CASE, "scheme": "default", "variant": variant.name, "spacing_m": 2e-7}
         entries.append(facts | {"finest": True})
-    (tmp_path / "results.json").write_text(json.dumps({"cases": entries}))
+    (tmp_path / "results.json").write_text(json.dumps({"level": "paper", "cases": entries}))
     of_bump = asperity.of_runs(tmp_path, lambda *arguments: Bump(4e-5, arguments[2]["walls.pad.width"]))
     assert of_bump["finite_elements"]["width"]["slope"] == pytest.approx(1)
     assert of_bump["sph"]["gap"]["values"][0]["pressure_Pa"] == pytest.approx(2.1 * 106)
     assert of_bump["sph"]["width"]["slope"] == pytest.approx(10.6)  # 0.1 of 106 Pa per um
     assert of_bump["paper"]["width"]["slope"] == 9.28
+    assert of_bump["level"] == "paper"
 
 
 def test_the_case_is_two_sweeps_that_share_a_point():
@@ -154,7 +155,7 @@ def test_a_length_that_the_reference_refuses_is_said_and_left_out():
 
 def test_the_command_says_what_is_missing(tmp_path, capsys):
     assert asperity.main(["--out", str(tmp_path)]) == 2
-    (tmp_path / "results.json").write_text(json.dumps({"cases": []}))
+    (tmp_path / "results.json").write_text(json.dumps({"level": "gate", "cases": []}))
     assert asperity.main(["--out", str(tmp_path)]) == 2
     assert f"no run of {CASE}" in capsys.readouterr().err
     assert not (tmp_path / "asperity.json").exists()
