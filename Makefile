@@ -55,7 +55,7 @@ verify: build ## Run every case against its reference; the exit status is the ve
 	@$(PYTHON) -m verification.run --level $(LEVEL)
 
 stability: build ## Push every hard case until it breaks: margins in build/stability/report.html (half an hour; resumes)
-	@$(PYTHON) -m verification.stability --jobs $(JOBS)
+	@$(PYTHON) -m verification.stability --jobs $(JOBS) --page verification/stability/README.md
 
 report: setup ## Write the report again from the last results (build/verify/report.html)
 	@$(PYTHON) -m verification.report
