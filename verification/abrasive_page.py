@@ -68,7 +68,7 @@ def page(found: Mapping[str, Any]) -> str:
     rule, members = found["result"]["rule"], [r["members"] for r in found["result"]["rows"] if r["count"]]
     each = f"{members[0]}" if len(set(members)) == 1 else f"{min(members)} to {max(members)}"
     bands = (
-        f"By other bands ({each} members for each number of discs, spacing {found['spacing_m']:g} m, 95 % "
+        f"By every band ({each} members for each number of discs, spacing {found['spacing_m']:g} m, 95 % "
         "intervals; exponents are sought up to 1.8):"
     )
     rest = f"By a band of {100 * rule['band']:g} %, over time and at other spacings:"
