@@ -83,7 +83,11 @@ def test_runs_are_fitted_beside_finite_elements(tmp_path):
     assert of_bump["sph"]["gap"]["values"][0]["pressure_Pa"] == pytest.approx(2.1 * 106)
     assert of_bump["sph"]["width"]["slope"] == pytest.approx(10.6)  # 0.1 of 106 Pa per um
     assert of_bump["paper"]["width"]["slope"] == 9.28
-    assert of_bump["level"] == "paper"
+    assert (of_bump["level"], of_bump["spacing_m"]) == ("paper", 2e-7)
+    table = asperity.point_table(of_bump).splitlines()
+    assert table[0] == "At a spacing of 2e-07 m the points are within 140.9 % of finite elements:"
+    assert len(table) == 2 + 2 + len(case.variants)
+    assert "| 6 | 1 | 222.6 | 106.0 | +110.00 % |" in table
 
 
 def test_the_case_is_two_sweeps_that_share_a_point():
