@@ -38,8 +38,8 @@ def _points(data: Data, of: str) -> tuple[list[Point], list[Point]]:
     stored = asperity_store.read()
     asperity_store.confirm(stored, [exact(data.case, v, data.reference(v)) for v in variants])
     truth = sweep(stored, of)
-    places = {(round(MICRO * p.width), round(MICRO * p.gap)) for p in truth}
-    return [p for p in ours if (round(MICRO * p.width), round(MICRO * p.gap)) in places], truth
+    places = {asperity_store.key(point) for point in truth}
+    return [point for point in ours if asperity_store.key(point) in places], truth
 
 
 def _draw(axes: Axes, data: Data, of: str) -> tuple[list[Point], np.ndarray, np.ndarray]:

@@ -59,9 +59,9 @@ def read(path: Path = STORED) -> list[Point]:
 
 def confirm(stored: Sequence[Point], made: Sequence[Point]) -> None:
     """Raises DataError where a reference made now is not what is stored at its point."""
-    pressures = {_key(point): point.pressure for point in stored}
+    pressures = {key(point): point.pressure for point in stored}
     for point in made:
-        kept = pressures.get(_key(point))
+        kept = pressures.get(key(point))
         if kept is None or abs(kept / point.pressure - 1) > AGREEMENT:
             raise DataError(
                 f"{STORED.name} has {kept} Pa where finite elements give {point.pressure:.6g}: make it again "
@@ -69,7 +69,7 @@ def confirm(stored: Sequence[Point], made: Sequence[Point]) -> None:
             )
 
 
-def _key(point: Point) -> tuple[int, int]:
+def key(point: Point) -> tuple[int, int]:
     """Width and gap in nm."""
     return round(point.width * 1e9), round(point.gap * 1e9)
 

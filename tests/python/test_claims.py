@@ -144,6 +144,12 @@ def test_a_verdict_says_for_which_bands_it_holds() -> None:
     )
 
 
+def test_an_ensemble_of_an_older_report_is_missing() -> None:
+    with pytest.raises(Missing, match="make figures"):
+        claims.over_bands(claims.rises)(evidence(abrasives=ensemble()))
+    assert "`make figures` (none)" in claims.ledger(evidence(abrasives=ensemble()))
+
+
 def test_the_ledger_says_what_each_part_is_from() -> None:
     text = claims.ledger(
         evidence(results={"level": "gate", "cases": []}, asperity={"level": "paper"}, abrasives=whole(ALIKE))
