@@ -55,7 +55,7 @@ verify: build ## Run every case against its reference; the exit status is the ve
 	@$(PYTHON) -m verification.run --level $(LEVEL)
 
 stability: build ## Push every hard case until it breaks: margins in build/stability/report.html (half an hour; resumes)
-	@$(PYTHON) -m verification.stability --jobs $(JOBS)
+	@$(PYTHON) -m verification.stability --jobs $(JOBS) --page verification/stability/README.md
 
 report: setup ## Write the report again from the last results (build/verify/report.html)
 	@$(PYTHON) -m verification.report
@@ -66,7 +66,7 @@ faults: build ## Plant each known fault and show that the named checks fail
 mutations: build ## Plant small faults in the physics by machine; at least 90 % must be caught (about an hour; resumes)
 	@$(PYTHON) -m verification.mutations --page verification/mutations.md
 
-claims: setup ## Write verification/claims.md, the ledger of the paper's claims, from the last results
+claims: setup ## Write verification/claims.md, the ledger of the paper's claims, and F_tau's tables, from the last results
 	@$(PYTHON) -m verification.claims
 
 baseline: setup ## Accept the last results as verification/baseline.json, for review in a commit

@@ -18,12 +18,13 @@ from typing import Any
 import numpy as np
 
 from verification.abrasive_statistics import BANDS, LEAST_DURATIONS, analyse, interval, ranked, weight_percent
-from verification.active_shear import CASE, Peaks, Rule, read
+from verification.active_shear import CASE, Peaks, Rule, read, spacing_of
 from verification.case import ROOT, load_case
 from verification.compare import DataError
 from verification.page import Table
 
 ENSEMBLE = ROOT / CASE / "ensemble.csv"
+DECISIVE = ("rise", "exponent_before", "slope_before_per_percent", "slope_after_per_percent", "models_before")
 
 
 def mean_by_count(runs: Sequence[Peaks], rule: Rule) -> dict[int, float]:
@@ -49,6 +50,31 @@ def sensitivity(
     return rows
 
 
+def within_noise(free: Peaks, rule: Rule, band: float) -> bool:
+    """Whether the abrasive-free run alone would decide what is active by that band."""
+    try:
+        Rule.of(free, band, least_duration=rule.least_duration, settling=rule.settling)
+    except DataError:
+        return True
+    return False
+
+
+def by_band(runs: Sequence[Peaks], rule: Rule, scene: dict[str, Any]) -> list[dict[str, Any]]:
+    """What decides the claims on F_tau by every one of BANDS, or the reason why a band decides nothing."""
+    rows = []
+    for band in BANDS:
+        other = dataclasses.replace(rule, band=band)
+        row: dict[str, Any] = {"band": band, "within_noise": within_noise(runs[0], rule, band)}
+        row["means"] = mean_by_count([run for run in runs if run.count > 0], other)
+        try:
+            found = analyse(runs, scene, other)
+            row["result"] = {key: found[key] for key in DECISIVE}
+        except DataError as error:
+            row["reason"] = str(error)
+        rows.append(row)
+    return rows
+
+
 def settled_from(free: Peaks, rule: Rule) -> float:
     """The time from which the abrasive-free peak stays within the band of the threshold, s."""
     outside = np.abs(free.peak / rule.threshold - 1) > rule.band
@@ -59,8 +85,14 @@ def halves(runs: Sequence[Peaks], rule: Rule) -> dict[str, Any]:
     """F_tau of the second half of the time less that of the first, run by run: zero if settled."""
     members = [run for run in runs if run.count > 0]
     pairs = [np.array_split(rule.active(run).astype(float), 2) for run in members]
-    difference = np.array([later.mean() - earlier.mean() for earlier, later in pairs])
-    return {"later_less_earlier": float(difference.mean()), "interval": interval(difference)}
+    means = np.array([[half.mean() for half in pair] for pair in pairs])
+    difference = means[:, 1] - means[:, 0]
+    counts = np.array([run.count for run in members])
+    return {
+        "later_less_earlier": float(difference.mean()),
+        "interval": interval(difference),
+        "rows": {int(c): means[counts == c].mean(axis=0).tolist() for c in np.unique(counts)},
+    }
 
 
 def places(runs: Sequence[Peaks], rule: Rule, scene: dict[str, Any]) -> dict[str, float]:
@@ -141,10 +173,15 @@ def report(csv: Path, others: Sequence[Path]) -> dict[str, Any]:
     return {
         "result": result,
         "settled_from_s": settled_from(runs[0], rule),
+        "spacing_m": spacing_of(csv),
         "sensitivity": sensitivity(runs, rule, scene, looks),
+        "bands": by_band(runs, rule, scene),
         "halves": halves(runs, rule),
         "places": places(runs, rule, scene),
-        "spacings": {path.stem: paired(read(path), runs) for path in others},
+        "spacings": {
+            path.stem: paired(read(path), runs) | {"spacings_m": [spacing_of(path), spacing_of(csv)]}
+            for path in others
+        },
     }
 
 

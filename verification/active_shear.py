@@ -17,6 +17,7 @@ import argparse
 import csv
 import io
 import math
+import re
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -26,7 +27,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from verification.case import ROOT, Case, load_case
+from verification.case import LEVELS, ROOT, Case, load_case
 from verification.compare import Array, DataError, require_series
 from verification.execute import Run
 from verification.run_one import member
@@ -121,15 +122,15 @@ def count_of(case: Case, variant: str) -> int:
     return int(case.scene(member(case, variant, None))["discs"][0]["count"])
 
 
-def collect(out: Path, spacing: float) -> list[Peaks]:
-    """The abrasive-free run and all members of the ensemble at that spacing that are below out/runs; raises
-    DataError without the abrasive-free run.
+def collect(out: Path, spacing: float, level: str) -> list[Peaks]:
+    """The abrasive-free run and the level's members of the ensemble at that spacing (m) that are below
+    out/runs; raises DataError without the abrasive-free run.
     """
     free = load_case(FREE_CASE)
     runs = [read_run(_result(free, FREE_VARIANT, None, spacing, out), 0, 0, free.scene())]
     case = load_case(CASE)
     for variant in case.data["ensemble"]["variants"]:
-        for seed in case.data["ensemble"]["seeds"]["paper"]:
+        for seed in case.data["ensemble"]["seeds"][level]:  # out may hold another level's, of another solver
             path = _result(case, variant, seed, spacing, out)
             if path.exists():
                 runs.append(read_run(path, count_of(case, variant), seed, case.scene()))
@@ -175,6 +176,14 @@ def read(path: Path) -> list[Peaks]:
     return runs
 
 
+def spacing_of(path: Path) -> float:
+    """The particle spacing of what `write` wrote, m; raises DataError where the file does not say."""
+    found = re.search(r"^# particle spacing (\S+) m$", path.read_text(), re.MULTILINE)
+    if found is None:
+        raise DataError(f"{path}: no line says the particle spacing")
+    return float(found[1])
+
+
 def _run_of(name: str, times: Array, peak: list[str], place: list[str]) -> Peaks:
     if peak[:2] != place[:2] or (peak[2], place[2]) != ("peak", "place"):
         raise DataError(f"{name}: {peak[:3]} and {place[:3]} are not peak and place of one run")
@@ -187,13 +196,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         prog="python -m verification.active_shear", description=__doc__.splitlines()[0]
     )
     parser.add_argument("--spacing", type=float, required=True, metavar="M")
+    parser.add_argument("--level", choices=LEVELS, default="gate", help="whose members")
     parser.add_argument("--out", type=Path, default=ROOT.parent / "build" / "figures", help="where runs/ is")
     parser.add_argument("--csv", type=Path, required=True)
     options = parser.parse_args(argv)
     try:
-        runs = collect(options.out, options.spacing)
+        runs = collect(options.out, options.spacing, options.level)
         command = (
-            f"python -m verification.active_shear --spacing {options.spacing:g} --csv {options.csv.name}"
+            f"python -m verification.active_shear --level {options.level} --spacing {options.spacing:g}"
+            f" --csv {options.csv.name}"
         )
         write(options.csv, runs, options.spacing, command)
     except (DataError, OSError) as error:

@@ -1,9 +1,9 @@
 """Fig. 13 of wang2014: the pressure maximum on the wafer over the asperity's width and over the gap.
 
 `python -m verification.asperity` fits the sweeps of the last `make verify LEVEL=paper` as the paper does, SPH
-and finite elements alike, and writes asperity.json beside results.json. `--lengths` does the same for finite
-elements in channels of other lengths, which the paper leaves open, and writes asperity_lengths.json and the
-table in the case's README.md.
+and finite elements alike, and writes asperity.json beside results.json; `--page` writes a table of the points
+into the case's README.md, too. `--lengths` does the same for finite elements in channels of other lengths,
+which the paper leaves open, and writes asperity_lengths.json and the table of lengths in that README.md.
 
 The fits are least squares, weights equal, with the 95 % interval of Student's distribution. The points have
 little noise, so an interval says mostly how far they are from the assumed form; `largest_residual` says it
@@ -27,7 +27,9 @@ from reference import Reference, ReferenceError
 from reference import load as load_reference
 from verification.case import ROOT, Case, CaseError, Variant, load_case
 from verification.compare import Array, DataError
+from verification.markers import replace_between
 from verification.measure import Result
+from verification.page import Table
 
 CASE, WAFER, REFERENCE = "gaussian_asperity", "wafer", "channel_navier_stokes"
 MICRO = 1e6
@@ -146,8 +148,8 @@ def fits(points: Sequence[Point]) -> dict[str, Any]:
 def of_runs(out: Path, load: Callable[..., Reference] = load_reference) -> dict[str, Any]:
     """Fits of the runs that out/results.json lists, and of finite elements at the same points."""
     case = load_case(CASE)
-    listed = json.loads((out / "results.json").read_text())["cases"]
-    finest = {e["variant"]: e for e in listed if e["case"] == CASE and e["finest"]}
+    results = json.loads((out / "results.json").read_text())
+    finest = {e["variant"]: e for e in results["cases"] if e["case"] == CASE and e["finest"]}
     if not finest:
         raise DataError(f"{out / 'results.json'} has no run of {CASE}: make verify LEVEL=paper")
     ours, truth = [], []
@@ -158,7 +160,9 @@ def of_runs(out: Path, load: Callable[..., Reference] = load_reference) -> dict[
         ours.append(measured(case, variant, Result(folder / "result.h5", scene["output"]["end_time"], scene)))
         cache = ROOT.parent / "build" / "reference"
         truth.append(exact(case, variant, load(REFERENCE, case.scene_path, dict(variant.set), cache)))
-    return _with_paper({"sph": fits(ours), "finite_elements": fits(truth)})
+    spacing = max(entry["spacing_m"] for entry in finest.values())
+    found = {"level": results["level"], "spacing_m": spacing}
+    return _with_paper(found | {"sph": fits(ours), "finite_elements": fits(truth)})
 
 
 def _with_paper(found: dict[str, Any]) -> dict[str, Any]:
@@ -191,6 +195,30 @@ def of_lengths(load: Callable[..., Reference] = load_reference) -> dict[str, Any
                 print(f"{name}: {variant.name}: {error}", file=sys.stderr)
         found[name] = fits(points)
     return _with_paper(found)
+
+
+def point_table(found: Mapping[str, Any]) -> str:
+    """Markdown: what `of_runs` found at every point, SPH against finite elements."""
+    sph, truth = (
+        {
+            (row["width_m"], row["gap_m"]): row["pressure_Pa"]
+            for of in SWEEPS
+            for row in found[source][of]["values"]
+        }
+        for source in ("sph", "finite_elements")
+    )
+    rows, errors = [], []
+    for (width, gap), pressure in sorted(truth.items()):
+        errors.append(sph[width, gap] / pressure - 1)
+        numbers = (f"{MICRO * width:.3g}", f"{MICRO * gap:.3g}", f"{sph[width, gap]:.1f}", f"{pressure:.1f}")
+        rows.append(("", (*numbers, f"{100 * errors[-1]:+.2f} %")))
+    head = ("sigma (um)", "gap (um)", "SPH (Pa)", "finite elements (Pa)", "error")
+    largest = max(map(abs, errors))
+    said = (
+        f"At a spacing of {found['spacing_m']:g} m the points are within {100 * largest:.1f} % of finite "
+        "elements:"
+    )
+    return f"{said}\n\n{Table(head, rows).markdown().strip()}"
 
 
 def length_table(found: Mapping[str, Any]) -> str:
@@ -228,6 +256,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--out", type=Path, default=ROOT.parent / "build" / "verify")
     parser.add_argument("--lengths", action="store_true", help="finite elements in channels of other lengths")
+    parser.add_argument("--page", action="store_true", help="the points into the case's README.md, too")
     options = parser.parse_args(argv)
     try:
         found = of_lengths() if options.lengths else of_runs(options.out)
@@ -238,6 +267,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         part.replace(file)
         if options.lengths:
             write_table(ROOT / CASE / "README.md", length_table(found))
+        elif options.page:
+            replace_between(ROOT / CASE / "README.md", "points", point_table(found))
     except (CaseError, DataError, ReferenceError, OSError, ValueError) as error:
         print(f"asperity: {error}", file=sys.stderr)
         return 2

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from verification import asperity_store
 from verification.asperity import (
     MICRO,
     PAPER_RATE,
@@ -28,14 +29,17 @@ PRESSURE = "wafer pressure, maximum - mean (Pa)"
 
 
 def _points(data: Data, of: str) -> tuple[list[Point], list[Point]]:
-    """SPH and finite elements at the points of a sweep that were run."""
+    """SPH at the points of a sweep that were run, and finite elements at all of them."""
     run = {entry["variant"] for entry in data.entries}
     variants = [variant for variant in data.case.variants if variant.name in run]
     if not variants:
         raise DataError("no variant was run")
     ours = [measured(data.case, variant, data.result(variant)) for variant in variants]
-    truth = [exact(data.case, variant, data.reference(variant)) for variant in variants]
-    return sweep(ours, of), sweep(truth, of)
+    stored = asperity_store.read()
+    asperity_store.confirm(stored, [exact(data.case, v, data.reference(v)) for v in variants])
+    truth = sweep(stored, of)
+    places = {asperity_store.key(point) for point in truth}
+    return [point for point in ours if asperity_store.key(point) in places], truth
 
 
 def _draw(axes: Axes, data: Data, of: str) -> tuple[list[Point], np.ndarray, np.ndarray]:
@@ -62,7 +66,12 @@ def width(data: Data) -> Figure:
     if len(truth) > 2:
         fit = fit_width(truth)
         slope = fit["slope"]
-        axes.plot(line, fit["intercept"] + slope * line, "k-", label=f"their line, slope {slope:.2f} Pa/µm")
+        axes.plot(
+            line,
+            fit["intercept"] + slope * line,
+            "k-",
+            label=f"line through finite elements, slope {slope:.2f} Pa/µm",
+        )
         paper = y.mean() + PAPER_SLOPE * (line - x.mean())
         axes.plot(line, paper, "--", color=COLOURS[3], label=f"the paper's slope, {PAPER_SLOPE} Pa/µm")
     axes.set(xlabel="width of the asperity σ (µm)", ylabel=PRESSURE)
@@ -80,9 +89,9 @@ def gap(data: Data) -> Figure:
     if len(truth) > 2:
         fit, unit = fit_gap(truth), MICRO * RATE_LENGTH
         power, exponential = fit["power"], fit["exponential"]
-        label = f"their power, gap^-{power['exponent']:.2f}"
+        label = f"power through finite elements, gap^-{power['exponent']:.2f}"
         axes.plot(line, power["factor"] * (line / unit) ** -power["exponent"], "k-", label=label)
-        label = f"their exponential, rate {exponential['rate']:.2f} / 10 µm"
+        label = f"exponential through finite elements, rate {exponential['rate']:.2f} / 10 µm"
         axes.plot(line, exponential["factor"] * np.exp(-exponential["rate"] * line / unit), "k:", label=label)
         paper = np.exp(np.log(y).mean() - PAPER_RATE * (line - x.mean()) / unit)
         axes.plot(line, paper, "--", color=COLOURS[3], label=f"the paper's rate, {PAPER_RATE} / 10 µm")

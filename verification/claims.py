@@ -1,14 +1,15 @@
 """The ledger of the paper's claims: `python -m verification.claims` writes verification/claims.md.
 
-Each claim is a function of the evidence: the checks of build/verify/results.json and, where they exist,
-asperity.json beside it (`python -m verification.asperity`) and build/figures/abrasives.json
-(`python -m verification.abrasive_report`). What has not been run is `not decided`, and the ledger says by
-which command it would be.
+Each claim is a function of the evidence: the checks of build/verify/results.json, asperity.json beside it
+(`python -m verification.asperity`) and build/figures/abrasives.json (`make figures`). Where some of it is
+missing, the command says what to run and writes nothing. It also writes the tables of F_tau's sensitivity
+into the README of the abrasives.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import json
 import math
 import sys
@@ -17,8 +18,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from verification import abrasive_page
 from verification.abrasive_statistics import weight_percent
+from verification.active_shear import CASE as ABRASIVES
 from verification.case import ROOT, load_case
+from verification.markers import replace_between
 from verification.page import Table
 
 BUILD = ROOT.parent / "build"
@@ -37,6 +41,7 @@ class Finding:
     truth: str  # what is independent of the particles
     verdict: str
     why: str
+    range: str = ""  # of the rule's band, for which the verdict holds
 
 
 @dataclass(frozen=True)
@@ -70,9 +75,14 @@ class Evidence:
         return found
 
     def ensemble(self) -> dict[str, Any]:
-        if self.abrasives is None:
-            raise Missing("`python -m verification.abrasive_report`")
+        if self.abrasives is None or "bands" not in self.abrasives:  # or of an older make figures
+            raise Missing("`make figures`")
         return self.abrasives["result"]
+
+    def bands(self) -> list[dict[str, Any]]:
+        """The ensemble by every band outside of the abrasive-free run's noise."""
+        self.ensemble()
+        return [row for row in (self.abrasives or {})["bands"] if not row["within_noise"]]
 
 
 def percent(check: dict[str, Any]) -> str:
@@ -197,8 +207,25 @@ def threshold(evidence: Evidence) -> Finding:
     )
 
 
-def rises(evidence: Evidence) -> Finding:
-    rise = evidence.ensemble()["rise"]
+def over_bands(decide: Callable[[dict[str, Any]], Finding]) -> Callable[[Evidence], Finding]:
+    """A claim on F_tau by the rule's own band, with what the verdict is by the others."""
+
+    def decided(evidence: Evidence) -> Finding:
+        found = decide(evidence.ensemble())
+        by_verdict: dict[str, list[str]] = {found.verdict: []}
+        for row in evidence.bands():
+            verdict = decide(row["result"]).verdict if "result" in row else OPEN
+            by_verdict.setdefault(verdict, []).append(f"{100 * row['band']:g}")
+        alike, *others = by_verdict.items()
+        texts = [f"by bands of {', '.join(alike[1])} %"]
+        texts += [f"{verdict} by {', '.join(bands)} %" for verdict, bands in others]
+        return dataclasses.replace(found, range="; ".join(texts))
+
+    return decided
+
+
+def rises(result: dict[str, Any]) -> Finding:
+    rise = result["rise"]
     return Finding(
         f"Kendall's tau {rise['kendall_tau']:.2f}, one-sided p = {rise['p']:.2g}",
         "none",
@@ -207,8 +234,7 @@ def rises(evidence: Evidence) -> Finding:
     )
 
 
-def cube_root(evidence: Evidence) -> Finding:
-    result = evidence.ensemble()
+def cube_root(result: dict[str, Any]) -> Finding:
     exponent, low, high = result["exponent_before"]
     behind = {row["model"]: row["aic"] - result["models_before"][0]["aic"] for row in result["models_before"]}
     best = result["models_before"][0]["model"]
@@ -226,8 +252,7 @@ def cube_root(evidence: Evidence) -> Finding:
     )
 
 
-def saturates(evidence: Evidence) -> Finding:
-    result = evidence.ensemble()
+def saturates(result: dict[str, Any]) -> Finding:
     slopes = [
         [v for v in result[f"slope_{part}_per_percent"] if v is not None] for part in ("before", "after")
     ]
@@ -290,29 +315,62 @@ CLAIMS = (
     Claim("4.3", "the pressure at the sample point peaks at 0.7 T (Fig. 14)", peak_time),
     Claim("4.4", "Table 1: weights of 4 to 29 abrasives", table_1),
     Claim("4.4", "the threshold, the largest shear without abrasives, is 288.5 Pa", threshold),
-    Claim("4.4", "F_tau rises with the concentration (Fig. 19a)", rises),
-    Claim("4.4", "F_tau is proportional to the cube root of wt% up to 5 % (Fig. 19b)", cube_root),
-    Claim("4.4", "F_tau saturates near 5 % (Fig. 19a)", saturates),
+    Claim("4.4", "F_tau rises with the concentration (Fig. 19a)", over_bands(rises)),
+    Claim("4.4", "F_tau is proportional to the cube root of wt% up to 5 % (Fig. 19b)", over_bands(cube_root)),
+    Claim("4.4", "F_tau saturates near 5 % (Fig. 19a)", over_bands(saturates)),
 )
+
+
+def findings(evidence: Evidence, claims: Sequence[Claim]) -> list[Finding | Missing]:
+    """What the evidence says of each claim, or the evidence that it has not."""
+    found: list[Finding | Missing] = []
+    for claim in claims:
+        try:
+            found.append(claim.decide(evidence))
+        except Missing as missing:
+            found.append(missing)
+    return found
+
+
+def origin(evidence: Evidence) -> str:
+    """Which run each part of the ledger is from, Markdown."""
+    results, asperity = evidence.results or {}, evidence.asperity or {}
+    parts = [
+        f"`make verify` (level {results.get('level', 'none')}): Secs. 4.1 and 4.3, the threshold",
+        f"`python -m verification.asperity` (level {asperity.get('level', 'none')}): Sec. 4.2",
+    ]
+    if "bands" not in (evidence.abrasives or {}):
+        parts.append("`make figures` (none): F_tau of Sec. 4.4")
+    else:
+        members = sorted({row["members"] for row in evidence.ensemble()["rows"] if row["count"]})
+        parts.append(
+            f"`make figures` ({' or '.join(map(str, members))} members for each number of discs, spacing "
+            f"{evidence.abrasives['spacing_m']:g} m): F_tau of Sec. 4.4"
+        )
+    return "; ".join(parts)
 
 
 def ledger(evidence: Evidence, claims: Sequence[Claim] = CLAIMS) -> str:
     """The ledger as Markdown."""
     rows = []
-    for claim in claims:
-        try:
-            found = claim.decide(evidence)
-        except Missing as missing:
-            found = Finding("", "", "not decided", f"not run: {missing}")
-        rows.append(("", (claim.section, claim.text, found.ours, found.truth, found.verdict, found.why)))
+    for claim, found in zip(claims, findings(evidence, claims), strict=True):
+        if isinstance(found, Missing):
+            found = Finding("", "", "not decided", f"not run: {found}")
+        verdict = f"{found.verdict}, {found.range}" if found.range else found.verdict
+        rows.append(("", (claim.section, claim.text, found.ours, found.truth, verdict, found.why)))
     head = ("section", "the paper says", "we find", "independent truth", "verdict", "because")
-    level = (evidence.results or {}).get("level", "none")
     return (
-        "# The paper's claims\n\n"
-        f"Written by `python -m verification.claims` from `make verify` (level: {level}), "
-        "`python -m verification.asperity` and `python -m verification.abrasive_report`. Intervals are "
-        "95 %.\n\n" + Table(head, rows).markdown()
+        f"# The paper's claims\n\nWritten by `make claims` from {origin(evidence)}. Intervals are 95 %; the "
+        f"band is that of the rule of active steps ([{ABRASIVES}]({ABRASIVES}/README.md)).\n\n"
+        + Table(head, rows).markdown()
     )
+
+
+def require_all(evidence: Evidence, claims: Sequence[Claim]) -> None:
+    """Raises Missing with every command whose evidence a claim lacks."""
+    missing = [str(found) for found in findings(evidence, claims) if isinstance(found, Missing)]
+    if missing:
+        raise Missing(f"nothing written; run first: {'; '.join(dict.fromkeys(missing))}")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -321,16 +379,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--build", type=Path, default=BUILD, help="%(default)s")
     parser.add_argument("--to", type=Path, default=ROOT / "claims.md", help="%(default)s")
+    parser.add_argument(
+        "--page", type=Path, default=ROOT / ABRASIVES / "README.md", help="with F_tau's tables (%(default)s)"
+    )
     options = parser.parse_args(argv)
     try:
-        text = ledger(Evidence.read(options.build))
+        evidence = Evidence.read(options.build)
+        require_all(evidence, CLAIMS)
+        replace_between(options.page, "sensitivity", abrasive_page.page(evidence.abrasives or {}))
         part = options.to.with_suffix(".part")
-        part.write_text(text)
+        part.write_text(ledger(evidence, CLAIMS))
         part.replace(options.to)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, Missing) as error:
         print(f"claims: {error}", file=sys.stderr)
         return 2
-    print(options.to)
+    print(options.to, options.page, sep="\n")
     return 0
 
 

@@ -1,10 +1,13 @@
 """Intervals and models on ensembles drawn from a known law: the law must be found again."""
 
+import json
 import math
 
 import numpy as np
 import pytest
 
+from verification import abrasive_report
+from verification.abrasive_page import page
 from verification.abrasive_report import report, tables
 from verification.abrasive_statistics import (
     MODELS,
@@ -115,7 +118,8 @@ def ensemble(frequency_of, members=4):
             yield Peaks(count, seed, times, peak, place)
 
 
-def test_report_of_a_saturating_ensemble(tmp_path):
+def test_report_of_a_saturating_ensemble(tmp_path, monkeypatch):
+    monkeypatch.setattr(abrasive_report, "BANDS", (0.0, 0.01, 0.2))
     path = tmp_path / "ensemble.csv"
     write(path, ensemble(lambda count: -math.expm1(-0.08 * count)), 2.5e-7, "a command")
     found = report(path, [path])
@@ -125,9 +129,23 @@ def test_report_of_a_saturating_ensemble(tmp_path):
     assert list(found["places"].values()) == [0, 1, 0]
     assert found["spacings"]["ensemble"]["largest_difference"] == 0
     assert "1 - exp(-lambda n)" in tables(found)
+    by_band = {row["band"]: row for row in found["bands"]}
+    assert [row["within_noise"] for row in by_band.values()] == [True, False, False]
+    assert by_band[0.01]["result"]["rise"] == found["result"]["rise"]
+    assert "result" not in by_band[0.2]  # the passages' 330 Pa are not above it
+    assert page(json.loads(json.dumps(found))) == page(found)
+    rows = [line.split(" | ") for line in page(found).splitlines()]
+    assert [row[0] for row in rows if row[0].endswith(("%", "noise"))] == [
+        "| 0 %, within the noise",
+        "| 1 %",
+        "| 20 %",
+    ]
+    assert ["finer less coarser", "0.00 (0.00 to 0.00) |"] in [row[-2:] for row in rows]
+    assert sum(row[0] in ("| 4", "| 28") and row[-2] == row[-1].rstrip(" |") for row in rows) == 2
 
 
-def test_report_of_an_ensemble_that_does_not_rise(tmp_path):
+def test_report_of_an_ensemble_that_does_not_rise(tmp_path, monkeypatch):
+    monkeypatch.setattr(abrasive_report, "BANDS", (0.01,))
     path = tmp_path / "ensemble.csv"
     write(path, ensemble(lambda count: 0.5), 2.5e-7, "a command")
     assert report(path, [])["result"]["rise"]["p"] > 0.01

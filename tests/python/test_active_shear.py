@@ -6,7 +6,17 @@ import h5py
 import numpy as np
 import pytest
 
-from verification.active_shear import SETTLING, Peaks, Rule, collect, read, read_run, write
+from verification import active_shear
+from verification.active_shear import (
+    SETTLING,
+    Peaks,
+    Rule,
+    collect,
+    read,
+    read_run,
+    spacing_of,
+    write,
+)
 from verification.compare import DataError
 
 STEP = 8e-7
@@ -124,4 +134,26 @@ def test_the_peak_is_the_largest_magnitude_along_the_wafer(tmp_path):
 
 def test_no_abrasive_free_run_no_threshold(tmp_path):
     with pytest.raises(DataError, match="no probe"):
-        collect(tmp_path, 2.5e-7)
+        collect(tmp_path, 2.5e-7, "gate")
+
+
+def test_members_of_another_level_that_lie_about_are_left_out(tmp_path, monkeypatch):
+    def made(path, count, seed, scene):
+        return Peaks(count, seed, TIMES, np.full(150, 287.0), np.zeros(150))
+
+    monkeypatch.setattr(active_shear, "read_run", made)
+    for seed in range(1, 9):
+        path = tmp_path / f"runs/abrasives/default/count_04_seed_{seed}/2e-07/result.h5"
+        path.parent.mkdir(parents=True)
+        path.touch()
+    seeds = {level: [run.seed for run in collect(tmp_path, 2e-7, level)] for level in ("gate", "paper")}
+    assert seeds == {"gate": [0, 1, 2, 3, 4], "paper": [0, 1, 2, 3, 4, 5, 6, 7, 8]}
+
+
+def test_the_file_says_its_spacing(tmp_path):
+    path = tmp_path / "ensemble.csv"
+    write(path, [free()], 2.5e-7, "a command")
+    assert spacing_of(path) == 2.5e-7
+    path.write_text(path.read_text().replace("particle spacing", "spacing"))
+    with pytest.raises(DataError, match="no line says"):
+        spacing_of(path)

@@ -11,10 +11,11 @@ from numpy.testing import assert_allclose
 from reference import ReferenceError, rough_profile
 from reference.scene import read_scene
 from reference.walls import graph, uniform_numbers
-from verification import asperity, report
+from verification import asperity, asperity_figures, asperity_store, report
 from verification.asperity import CASE, Point, fit_gap, fit_width, fits, length_table, of_lengths, sweep
 from verification.case import ROOT, CaseError, load_case
 from verification.compare import DataError
+from verification.figures import Data
 from verification.measure import Result
 from verification.truth import error_of
 
@@ -37,6 +38,10 @@ class Bump:
 
 def load(name, scene_path, overrides, cache):
     return Bump(overrides["domain.upper"][0], overrides["walls.pad.width"])
+
+
+def bump_of(name, scene_path, overrides, cache):
+    return Bump(4e-5, overrides["walls.pad.width"])
 
 
 def write_run(path, factor, end, x):
@@ -72,12 +77,17 @@ def test_runs_are_fitted_beside_finite_elements(tmp_path):
         write_run(tmp_path / "runs" / CASE / "default" / variant.name / "2e-07" / "result.h5", factor, end, X)
         facts = {"case": CASE, "scheme": "default", "variant": variant.name, "spacing_m": 2e-7}
         entries.append(facts | {"finest": True})
-    (tmp_path / "results.json").write_text(json.dumps({"cases": entries}))
-    of_bump = asperity.of_runs(tmp_path, lambda *arguments: Bump(4e-5, arguments[2]["walls.pad.width"]))
+    (tmp_path / "results.json").write_text(json.dumps({"level": "paper", "cases": entries}))
+    of_bump = asperity.of_runs(tmp_path, bump_of)
     assert of_bump["finite_elements"]["width"]["slope"] == pytest.approx(1)
     assert of_bump["sph"]["gap"]["values"][0]["pressure_Pa"] == pytest.approx(2.1 * 106)
     assert of_bump["sph"]["width"]["slope"] == pytest.approx(10.6)  # 0.1 of 106 Pa per um
     assert of_bump["paper"]["width"]["slope"] == 9.28
+    assert (of_bump["level"], of_bump["spacing_m"]) == ("paper", 2e-7)
+    table = asperity.point_table(of_bump).splitlines()
+    assert table[0] == "At a spacing of 2e-07 m the points are within 140.9 % of finite elements:"
+    assert len(table) == 2 + 2 + len(case.variants)
+    assert "| 6 | 1 | 222.6 | 106.0 | +110.00 % |" in table
 
 
 def test_the_case_is_two_sweeps_that_share_a_point():
@@ -154,7 +164,7 @@ def test_a_length_that_the_reference_refuses_is_said_and_left_out():
 
 def test_the_command_says_what_is_missing(tmp_path, capsys):
     assert asperity.main(["--out", str(tmp_path)]) == 2
-    (tmp_path / "results.json").write_text(json.dumps({"cases": []}))
+    (tmp_path / "results.json").write_text(json.dumps({"level": "gate", "cases": []}))
     assert asperity.main(["--out", str(tmp_path)]) == 2
     assert f"no run of {CASE}" in capsys.readouterr().err
     assert not (tmp_path / "asperity.json").exists()
@@ -198,3 +208,41 @@ def test_the_table_of_the_rough_pad_is_what_its_command_makes(tmp_path):
     assert_allclose(np.loadtxt(out, delimiter=","), kept, atol=1.1e-10)
     assert rough_profile.main([scene, "roof", "--out", str(tmp_path / "no.csv")]) == 2
     assert not (tmp_path / "no.csv").exists()
+
+
+def test_the_stored_finite_elements_are_at_every_point_of_both_sweeps():
+    case = load_case(CASE)
+    stored = asperity_store.read()
+    shapes = [asperity.shape(case.scene(variant)) for variant in case.variants]
+    assert_allclose([(p.width, p.gap) for p in stored], shapes, rtol=1e-5)
+
+
+def test_finite_elements_are_stored_and_confirmed(tmp_path, capsys):
+    path = tmp_path / "finite_elements.csv"
+    assert asperity_store.main(["--to", str(path)], bump_of) == 0
+    stored = asperity_store.read(path)
+    assert [p.pressure for p in stored] == pytest.approx([102, 104, 106, 108, 110, *5 * [106]])
+    asperity_store.confirm(stored, [Point(6e-6, 3e-6, 106.05)])
+    for other in (Point(6e-6, 3e-6, 107), Point(6e-6, 4e-6, 106)):
+        with pytest.raises(DataError, match="make it again"):
+            asperity_store.confirm(stored, [other])
+    path.write_text("width_m,gap_m\n1,2\n")
+    with pytest.raises(DataError, match="needs the columns"):
+        asperity_store.read(path)
+
+
+@pytest.mark.parametrize(("of", "ours"), [("width", [6]), ("gap", [3, 7])])
+def test_figures_of_two_runs_have_the_whole_curve_of_finite_elements(tmp_path, monkeypatch, of, ours):
+    case = load_case(CASE)
+    entries = []
+    for name in ("sigma_06_gap_07", "sigma_06_gap_03"):
+        path = tmp_path / "runs" / CASE / "default" / name / "4e-07" / "result.h5"
+        write_run(path, 1.0, case.scene(case.variants[0])["output"]["end_time"], X)
+        entries.append({"scheme": "default", "variant": name, "spacing_m": 4e-7, "finest": True})
+    stored = [Point(p.width, p.gap, 100 + 1e6 * p.width) for p in CROSS]
+    monkeypatch.setattr(asperity_store, "read", lambda: stored)
+    data = Data(case, entries, tmp_path, lambda variant: Bump(4e-5, 6e-6))
+    axes = asperity_figures.FIGURES[f"pressure_over_{of}"](data).axes[0]
+    drawn = {line.get_label(): [round(x) for x in line.get_xdata()] for line in axes.get_lines()}
+    assert drawn["finite elements"] == {"width": [2, 4, 6, 8, 10], "gap": [1, 2, 3, 5, 7, 10]}[of]
+    assert sorted(drawn["SPH, spacing 4e-07 m"]) == ours

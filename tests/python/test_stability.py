@@ -161,6 +161,26 @@ def test_the_report_and_the_verdict(solver, capsys, monkeypatch):
     assert report.verdict(stability.run_all(planned(known_shortfalls=excused), solver)) == 0
 
 
+def test_the_page_has_the_margins_of_all_cases_or_is_left_alone(solver, monkeypatch, tmp_path, capsys):
+    directions = [{"variants": ["re_1000"], "names": ["sound_speed", "jitter"]}]
+    page = tmp_path / "README.md"
+    page.write_text("above\n<!-- margins:begin -->\n<!-- margins:end -->\nbelow\n")
+    monkeypatch.setattr(stability.os, "access", lambda path, mode: True)
+    some = planned(directions=directions)
+    monkeypatch.setattr(
+        stability, "tasks", lambda case, known: some if case.name == "hard_taylor_green" else []
+    )
+    command = ["--solver", str(solver.solver), "--out", str(solver.out), "--page", str(page)]
+    assert stability.main([*command, "--report-only"]) == 2  # nothing has been run
+    assert stability.main([*command, "--case", "hard_taylor_green"]) == 2
+    assert "some are missing" in capsys.readouterr().err and "|" not in page.read_text()
+    assert stability.main(command) == 0
+    lines = page.read_text().splitlines()
+    assert lines[0] == "above" and lines[-1] == "below"
+    row = next(line for line in lines if line.startswith("| `hard_taylor_green`, re 1000 |"))
+    assert row.endswith("| survived |  | sound speed 1.84, jitter 2.50+ |")
+
+
 def test_what_is_not_there_is_refused(capsys):
     with pytest.raises(CaseError, match="no variant"):
         planned(directions=[{"variants": ["none"], "names": ["sound_speed"]}])

@@ -12,7 +12,8 @@ rule abrasive_peaks:
         OUT / "abrasives_{spacing}.csv",
     localrule: True
     shell:
-        "{PYTHON} -m verification.active_shear --spacing {wildcards.spacing} --out {OUT} --csv {output}"
+        "{PYTHON} -m verification.active_shear --level {LEVEL} --spacing {wildcards.spacing} --out {OUT}"
+        " --csv {output}"
 
 
 rule abrasive_report:

@@ -1,4 +1,4 @@
-"""Error against wall time for every verified case: spacings, schemes, pair arithmetics and threads."""
+"""Error against wall time for the cases of the plan: spacings, schemes, pair arithmetics and threads."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """Runs every hard case with the defaults, then pushes it in each of its directions until it breaks.
 
 `python -m verification.stability` writes stability.json, report.md, report.html and a figure. Every answer is
-stored as it comes: an interrupted run goes on where it was, and a new solver or case starts anew. The exit
-status is the verdict: 0 when every margin meets its target or is a known shortfall, 1 if not; 2 when it
-cannot start.
+stored as it comes: an interrupted run goes on where it was, and a new solver or case starts anew. `--page`
+writes the margins of all cases into a page, between its markers of `margins`. The exit status is the verdict:
+0 when every margin meets its target or is a known shortfall, 1 if not; 2 when it cannot start.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from verification.case import HARD, ROOT, Case, CaseError, load_case
+from verification.markers import replace_between
 from verification.run import References
 from verification.stability import report
 from verification.stability.margins import Margin, find
@@ -175,6 +176,7 @@ def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--case", action="append", help="only this case (repeatable)")
     parser.add_argument("--solver", type=Path, default=REPOSITORY / "build" / "slurry")
     parser.add_argument("--out", type=Path, default=REPOSITORY / "build" / "stability")
+    parser.add_argument("--page", type=Path, help="with the markers of margins; of all cases only")
     parser.add_argument("--report-only", action="store_true", help="of the answers so far")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="runs at a time")
     parser.add_argument("--timeout", type=float, default=600, metavar="S", help="for one run (%(default)s s)")
@@ -197,10 +199,14 @@ def main(argv: Sequence[str] | None = None) -> int:
         else:
             answers = run_all(planned, options)
         report.write(answers, options.out)
+        if options.page:
+            if options.case or len(answers) < len(planned):
+                raise CaseError(f"{options.page} is for the margins of all cases, and some are missing")
+            replace_between(options.page, "margins", report.page(answers))
     except KeyboardInterrupt:
         print("stability: interrupted; the answers so far are kept", file=sys.stderr)
         return 2
-    except (CaseError, OSError) as error:
+    except (CaseError, OSError, ValueError) as error:
         print(f"stability: {error}", file=sys.stderr)
         return 2
     return report.verdict(answers)

@@ -84,6 +84,26 @@ def margins_table(answers: Sequence[Answer]) -> Table:
     return Table(head, rows)
 
 
+def page(answers: Sequence[Answer]) -> str:
+    """The margins for the README of the hard cases, Markdown: a row for each variant."""
+    rows = []
+    for case, variant in dict.fromkeys((a["case"], a["variant"]) for a in answers):
+        mine = [a for a in answers if (a["case"], a["variant"]) == (case, variant)]
+        defaults = [in_words(a) for a in mine if a["direction"] == DEFAULTS]
+        pushed = [a for a in mine if a["direction"] != DEFAULTS]
+        short, enough = (
+            ", ".join(_brief(a) for a in pushed if a["met"] == met).replace("_", " ") for met in (False, True)
+        )
+        rows.append(("", (f"`{case}`, {variant.replace('_', ' ')}", "; ".join(defaults), short, enough)))
+    head = ("case", "with the defaults", f"margin below {TARGET:g}", f"margin of {TARGET:g} or more")
+    said = f"{headline(answers)}. A + says that no limit was found up to there."
+    return f"{said}\n\n{Table(head, rows).markdown().strip()}"
+
+
+def _brief(answer: Answer) -> str:
+    return f"{answer['direction']} {answer['margin']:.2f}" + ("" if beyond(answer) else "+")
+
+
 def figure(answers: Sequence[Answer]) -> Figure:
     """Cases down, directions across; a cell's colour says how far the limit is, its text how it ends."""
     rows = list(dict.fromkeys((a["case"], a["variant"]) for a in answers))
