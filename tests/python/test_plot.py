@@ -1,5 +1,7 @@
 """The pictures of a run, from small synthetic runs: what is held is drawn, what is missing is said."""
 
+import os
+
 import h5py
 import numpy as np
 import pytest
@@ -166,6 +168,37 @@ def test_a_failed_run_can_be_drawn_by_its_file(run, monkeypatch):
     only(monkeypatch, "totals")
     assert plot.main([str(run / "failed.h5")]) == 0
     assert (run / "plots" / "totals.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [("failed.h5", "failed"), ("checkpoint.h5", "interrupted"), ("result.h5.partial", "killed")],
+)
+def test_a_later_run_that_did_not_end_is_told(run, monkeypatch, capsys, name, reason):
+    only(monkeypatch, "totals")
+    (run / name).touch()
+    os.utime(run / name, (1, 1))
+    assert plot.main([str(run)]) == 0
+    assert capsys.readouterr().err == ""
+    os.utime(run / "result.h5", (1, 1))
+    (run / name).touch()
+    assert plot.main([str(run)]) == 0
+    error = capsys.readouterr().err
+    assert error.startswith(f"plot: warning: {run / name} is newer than result.h5: the last run there")
+    assert reason in error
+    assert error.endswith("; result.h5 is of an earlier run\n")
+
+
+def test_pictures_of_an_earlier_run_go_and_nothing_else(run):
+    plots = run / "plots"
+    plots.mkdir()
+    for name in ("wall_gone.png", "wall_gone_over_time.png", "points.png", "mine.png", "wall_gone.pdf"):
+        (plots / name).touch()
+    with h5py.File(run / "result.h5", "a") as file:
+        del file["probes/middle"]
+    plot.save(open_run(run), plots)
+    left = {path.name for path in plots.iterdir()}
+    assert left == {f"{name}.png" for name in NAMES if name != "points"} | {"mine.png", "wall_gone.pdf"}
 
 
 def legends(figure):
