@@ -19,7 +19,10 @@ from verification.units import label
 NEIGHBOURS = 20
 SHOWN = 0.99  # of the particles lie within the colour scale
 DOT = 1.8  # diameter of a drawn particle over the distance to its nearest neighbour: no white between them
+UNDER = 2.7  # the same of a second layer beneath: between particles and a disc is fluid, too
 WALL, MISSING = "0.55", "magenta"
+NOTHING = "0.8"  # where there is no fluid: no map has it, as RdBu_r has white for zero
+NOISE = 1e-3  # of what the flow's speed makes natural: less is drawn as a constant
 
 
 def speed(particles: Particles) -> Array:
@@ -78,6 +81,22 @@ FIELDS = {
 }
 
 
+def least_shown(result: Result) -> dict[str, float]:
+    """By quantity, half the range that a scale has at least: of an exactly uniform one, a scale that suits
+    what is there would show the rounding as structure.
+    """
+    fluid, walls = result.scene.get("fluid", {}), result.scene.get("walls", [])
+    speeds = [np.hypot(*wall.get("velocity", (0, 0))) for wall in walls]
+    if result.holds("series"):
+        speeds.append(result.columns("series")["largest_speed"][-1])
+    speed = max(filter(np.isfinite, speeds), default=0.0)
+    rate = speed / np.subtract(*bounds(result)[::-1]).min()
+    shear = fluid.get("dynamic_viscosity", 0.0) * rate
+    natural = {"velocity": speed, "vorticity": rate, "shear": shear}
+    natural["pressure"] = max(fluid.get("density", 0.0) * speed**2, shear)
+    return {name: NOISE * scale for name, scale in natural.items()}
+
+
 def limit_of(result: Result, times: Sequence[float], field: str) -> float:
     """The end of a colour scale that suits the snapshots at `times`."""
     values = [np.abs(FIELDS[field].values(result.snapshot(time)[0])) for time in times]
@@ -85,7 +104,7 @@ def limit_of(result: Result, times: Sequence[float], field: str) -> float:
     found = found[np.isfinite(found)]
     if not len(found):
         raise DataError(f"no particle has a {field}")
-    return float(np.quantile(found, SHOWN)) or 1.0
+    return max(float(np.quantile(found, SHOWN)), least_shown(result).get(field, 0.0)) or 1.0
 
 
 def draw(

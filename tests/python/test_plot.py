@@ -18,6 +18,9 @@ SCENE = """
 lower = [0.0, 0.0]
 upper = [4e-5, 2e-5]
 periodic = "x"
+[fluid]
+density = 1000.0
+dynamic_viscosity = 1e-3
 [[walls]]
 name = "wafer"
 velocity = [2e-5, 0.0]
@@ -249,6 +252,49 @@ def test_a_wall_is_drawn_where_it_stands(run):
     assert np.all(np.diff(x) > 0)
     assert x[0] == pytest.approx(0, abs=1e-12)
     assert x[np.argmax(pressure)] == pytest.approx(2e-5)  # where the crest of x = 0 has come by time 1
+
+
+def test_the_lid_of_a_closed_box_is_drawn_where_it_stays(run):
+    with h5py.File(run / "result.h5", "a") as file:
+        file.attrs["scene"] = SCENE.replace('periodic = "x"', "")
+    walls = FIGURES["walls"](open_run(run))
+    assert walls["wall_wafer"].axes[0].lines[0].get_xdata() == pytest.approx(np.linspace(0, 3.9e-5, 40))
+    assert "frame" not in walls["wall_wafer_over_time"].axes[0].get_xlabel()
+
+
+def test_noise_is_drawn_flat_and_structure_is_not(run):
+    """Rounding against what a wall at 1 m/s makes natural: 1000 Pa in the pressure, 50 Pa in the shear."""
+    with h5py.File(run / "result.h5", "a") as file:
+        file.attrs["scene"] = SCENE.replace("[2e-5, 0.0]", "[1.0, 0.0]")
+        ripple = np.cos(np.arange(4040)).reshape(-1, 40)
+        file["probes/wafer/pressure"][...] = 1e-3 * ripple
+        file["probes/wafer/shear"][...] = 200 + 1e-3 * ripple
+        file["probes/middle/pressure"][...] = 5 + 1e-3 * ripple[:, 0]
+        file["probes/middle/velocity_y"][...] = 1e-6 * ripple[:, 0]
+        pressure = file["snapshots/0000/pressure"]
+        pressure[...] = 1e-3 * np.cos(np.arange(len(pressure)))
+    result = open_run(run)
+    ranges = {
+        name: [axes.get_ylim() for axes in FIGURES[kind](result)[name].axes]
+        for kind, name in (("walls", "wall_wafer"), ("points", "points"))
+    }
+    assert ranges["wall_wafer"][0] == pytest.approx((-1, 1), abs=2e-3)
+    assert ranges["wall_wafer"][1] == pytest.approx((199.8, 200.2), abs=2e-3)
+    assert ranges["points"][0] == pytest.approx((4, 6), abs=2e-3)
+    assert ranges["points"][1] == pytest.approx((-0.05, 1.05))
+    assert ranges["points"][2] == pytest.approx((-1e-3, 1e-3), abs=2e-6)
+    pressure, shear = colour_ranges(FIGURES["walls"](result)["wall_wafer_over_time"])
+    assert pressure == pytest.approx((-1, 1))
+    assert shear == pytest.approx((199.8, 200.2), abs=2e-3)
+    fields = FIGURES["fields"](result)["fields"]
+    assert colour_ranges(fields)[1] == pytest.approx((-1, 1))
+    change(run, "snapshots/0000/pressure", slice(0, 400), 7.0)
+    assert colour_ranges(FIGURES["fields"](result)["fields"])[1][1] > 3
+
+
+def colour_ranges(figure):
+    """Of the panels, not of the colour bars."""
+    return [axes.collections[0].get_clim() for axes in figure.axes if axes.get_title()]
 
 
 def test_a_way_across_the_periodic_side_is_broken_there(run):
