@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from verification.compare import Array, DataError
 from verification.measure import Columns, Result
@@ -159,12 +160,20 @@ def _map(result: Result, probe: dict, columns: Columns) -> Figure:
 def _line(axes: Axes, x: Array, y: Array, name: str, style: str = "-", **more: object) -> None:
     """A curve with gaps where it is not finite, which its name then says."""
     gaps = np.count_nonzero(~np.isfinite(y))
-    name = f"{name} (not finite: {gaps} of {y.size})" if gaps else name
-    axes.plot(x, y, style, label=name, **more)
-    if x[0] < x[-1]:
-        axes.set_xlim(x[0], x[-1])
+    _curve(axes, x, y, style, label=_with_gaps(name, gaps, y.size), **more)
     if gaps:
         axes.legend(fontsize=8)
+
+
+def _curve(axes: Axes, x: Array, y: Array, style: str = "-", **more: object) -> Line2D:
+    (line,) = axes.plot(x, y, style, **more)
+    if x[0] < x[-1]:
+        axes.set_xlim(x[0], x[-1])
+    return line
+
+
+def _with_gaps(name: str, gaps: int, samples: int) -> str:
+    return f"{name} (not finite: {gaps} of {samples})" if gaps else name
 
 
 def discs(result: Result) -> Figures:
@@ -217,11 +226,14 @@ def points(result: Result) -> Figures:
     panels = figure.subplots(3, 1, sharex=True)
     for probe in probes:
         columns = result.columns(f"probes/{probe['name']}")
+        gaps = 0
         for axes, name in zip(panels, ("pressure", "velocity_x", "velocity_y"), strict=True):
-            _line(axes, columns["time"], columns[name], probe["name"])
+            gaps = max(gaps, np.count_nonzero(~np.isfinite(columns[name])))
+            line = _curve(axes, columns["time"], columns[name])
             _make_room(axes, least[name.split("_")[0]])
             label(axes.yaxis, name.replace("_", " along "), columns.units[name])
-    panels[0].legend(fontsize=8)
+        line.set_label(_with_gaps(probe["name"], gaps, line.get_xdata().size))
+    figure.legend(loc="outside upper center", ncols=3)
     label(panels[-1].xaxis, "time", "s")
     return {"points": figure}
 

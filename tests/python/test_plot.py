@@ -3,14 +3,16 @@
 import os
 
 import h5py
+import matplotlib
 import numpy as np
 import pytest
 from disc_fakes import TIMES, fields, write
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from verification import plot
 from verification.measure import open_run
-from verification.picture import MISSING, draw
+from verification.picture import FIELDS, MISSING, NOTHING, WALL, draw
 from verification.run_figures import FIGURES
 
 SCENE = """
@@ -205,7 +207,8 @@ def test_pictures_of_an_earlier_run_go_and_nothing_else(run):
 
 
 def legends(figure):
-    return [text.get_text() for axes in figure.axes if axes.get_legend() for text in axes.get_legend().texts]
+    found = [axes.get_legend() for axes in figure.axes] + figure.legends
+    return [text.get_text() for legend in found if legend for text in legend.texts]
 
 
 def test_particles_that_are_not_finite_are_shown_where_they_are(run):
@@ -230,7 +233,7 @@ def test_gaps_in_series_and_walls_are_counted(run):
         change(run, path, -1, np.nan)
     result = open_run(run)
     assert "fluid (not finite: 1 of 101)" in legends(FIGURES["totals"](result)["totals"])
-    assert "middle (not finite: 1 of 101)" in legends(FIGURES["points"](result)["points"])
+    assert legends(FIGURES["points"](result)["points"]) == ["middle (not finite: 1 of 101)"]
     walls = FIGURES["walls"](result)
     assert legends(walls["wall_wafer"]) == ["shear (not finite: 40 of 40)"]
     assert legends(walls["wall_wafer_over_time"]) == ["not finite: 40 of 4040"]
@@ -303,6 +306,49 @@ def test_a_way_across_the_periodic_side_is_broken_there(run):
     x = way.get_xdata()
     assert np.count_nonzero(np.isnan(x)) == 1
     assert np.nanmax(np.abs(np.diff(x))) < 1e-6
+
+
+def test_points_have_one_legend_outside_the_panels(run):
+    figure = FIGURES["points"](open_run(run))["points"]
+    assert legends(figure) == ["middle"]
+    assert not any(axes.get_legend() for axes in figure.axes)
+    assert figure.axes[0].get_xlim() == (TIMES[0], TIMES[-1])
+
+
+def no_fluid(figure):
+    """Which pixels (rows, columns) of a figure show that there is no fluid; the last row is the lowest."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    colours = np.asarray(canvas.buffer_rgba())[:, :, :3] / 255
+    return np.all(np.abs(colours - float(NOTHING)) < 0.01, axis=2)
+
+
+def test_the_fluid_is_drawn_to_periodic_sides_and_to_discs(run):
+    """The particles left and right of x = 0 stand a spacing off it, and one is missing beside the disc."""
+    with h5py.File(run / "result.h5", "a") as file:
+        group = file["snapshots/0000"]
+        x, y = group["position_x"][()], group["position_y"][()]
+        fluid = group["wall"][()] < 0
+        gone = fluid & ((x < 0.6e-6) | (np.hypot(x - 1.15e-5, y - 1.05e-5) < 0.1e-6))
+        for name in list(group):
+            values = group[name][()][~gone]
+            del group[name]
+            group[name] = values
+        file["run"].attrs["fluid_particles"] = np.count_nonzero(fluid & ~gone)
+    figure = Figure(figsize=(8, 4))
+    axes = figure.add_axes((0, 0, 1, 1))
+    draw(axes, open_run(run), 1.0, "speed")
+    axes.set(ylim=(0, 1.9e-5))
+    assert not np.any(no_fluid(figure))
+    axes.set(ylim=(-4e-6, 1.9e-5))
+    assert np.all(no_fluid(figure)[-50:-5, 300:500])  # where indeed there is none
+
+
+@pytest.mark.parametrize("field", FIELDS)
+def test_no_value_has_the_colour_of_no_fluid(field):
+    colours = matplotlib.colormaps[FIELDS[field].colours](np.linspace(0, 1, 256))[:, :3]
+    for other in (colours, [matplotlib.colors.to_rgb(WALL)], [matplotlib.colors.to_rgb("white")]):
+        assert np.linalg.norm(np.array(other) - float(NOTHING), axis=1).min() > 0.1
 
 
 def test_a_picture_has_the_walls_and_every_image_of_a_disc(run):
