@@ -88,7 +88,7 @@ def least_shown(result: Result) -> dict[str, float]:
     fluid, walls = result.scene.get("fluid", {}), result.scene.get("walls", [])
     speeds = [np.hypot(*wall.get("velocity", (0, 0))) for wall in walls]
     if result.holds("series"):
-        speeds.append(result.columns("series")["largest_speed"][-1])
+        speeds.extend(result.columns("series").get("largest_speed", ())[-1:])  # none if it failed at once
     speed = max(filter(np.isfinite, speeds), default=0.0)
     rate = speed / np.subtract(*bounds(result)[::-1]).min()
     shear = fluid.get("dynamic_viscosity", 0.0) * rate

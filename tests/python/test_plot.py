@@ -206,6 +206,14 @@ def test_pictures_of_an_earlier_run_go_and_nothing_else(run):
     assert left == {f"{name}.png" for name in NAMES if name != "points"} | {"mine.png", "wall_gone.pdf"}
 
 
+def test_a_run_that_failed_before_its_first_sample_has_its_fields_drawn(run, monkeypatch):
+    with h5py.File(run / "result.h5", "a") as file:
+        del file["series"]
+        file.create_group("series")
+    only(monkeypatch, "fields")
+    assert plot.save(open_run(run), run / "plots") == ([run / "plots" / "fields.png"], [])
+
+
 def legends(figure):
     found = [axes.get_legend() for axes in figure.axes] + figure.legends
     return [text.get_text() for legend in found if legend for text in legend.texts]
