@@ -19,6 +19,12 @@ from verification.compare import Array, DataError, require_series
 # A sample stands for a wanted time when it is within this share of the end time. The reference is taken at
 # the sample's own time: this only tells a run that ended early from one whose step does not divide the time.
 TIME_MATCH = 1e-3
+# What a run leaves that did not end, or has not yet; one that ends well removes them.
+UNENDED = {
+    "failed.h5": "the last run there failed",
+    "checkpoint.h5": "the last run there was interrupted, or is still going",
+    "result.h5.partial": "the last run there was killed, or is still going",
+}
 COLUMNS = ("position_x", "position_y", "velocity_x", "velocity_y", "pressure")  # of a snapshot that are read
 
 
@@ -231,6 +237,16 @@ def open_run(run: Path) -> Result:
         return Result(path, scene["output"]["end_time"], scene)
     except (OSError, RuntimeError, KeyError, tomllib.TOMLDecodeError) as error:
         raise DataError(f"{path} is not the result of a run: {error}") from error
+
+
+def unended_since(path: Path) -> list[str]:
+    """What says that a run after that of `path` did not end, so that `path` is not of the last run."""
+    found = []
+    for name, meaning in UNENDED.items():
+        other = path.with_name(name)
+        if other.exists() and other.stat().st_mtime_ns > path.stat().st_mtime_ns:
+            found.append(f"{other} is newer than {path.name}: {meaning}; {path.name} is of an earlier run")
+    return found
 
 
 def _group(parent: h5py.Group, name: str) -> h5py.Group:

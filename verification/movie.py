@@ -15,7 +15,7 @@ from matplotlib import animation
 from matplotlib.figure import Figure
 
 from verification.compare import DataError
-from verification.measure import Result, open_run
+from verification.measure import Result, open_run, unended_since
 from verification.picture import FIELDS, bounds, draw, limit_of
 from verification.units import label, text
 
@@ -73,7 +73,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"movie: {out.name}: a movie is .gif, or .mp4 where ffmpeg is installed", file=sys.stderr)
         return 2
     try:
-        print(f"{out}: {write(open_run(options.run), out, options.rate, options.field)} frames")
+        result = open_run(options.run)
+        for reason in unended_since(result.path):
+            print(f"movie: warning: {reason}", file=sys.stderr)
+        print(f"{out}: {write(result, out, options.rate, options.field)} frames")
     except (DataError, OSError) as error:
         print(f"movie: {error}", file=sys.stderr)
         return 2

@@ -19,7 +19,10 @@ from verification.units import label
 NEIGHBOURS = 20
 SHOWN = 0.99  # of the particles lie within the colour scale
 DOT = 1.8  # diameter of a drawn particle over the distance to its nearest neighbour: no white between them
+UNDER = 2.7  # the same of a layer beneath, which fills what is left beside discs and between particles
 WALL, MISSING = "0.55", "magenta"
+NOTHING = "0.8"  # where there is no fluid: no map has it, as RdBu_r has white for zero
+NOISE = 1e-3  # of what the flow's speed makes natural: less is drawn as a constant
 
 
 def speed(particles: Particles) -> Array:
@@ -78,6 +81,22 @@ FIELDS = {
 }
 
 
+def least_shown(result: Result) -> dict[str, float]:
+    """By quantity, half the range that a scale has at least: of an exactly uniform one, a scale that suits
+    what is there would show the rounding as structure.
+    """
+    fluid, walls = result.scene.get("fluid", {}), result.scene.get("walls", [])
+    speeds = [np.hypot(*wall.get("velocity", (0, 0))) for wall in walls]
+    if result.holds("series"):
+        speeds.extend(result.columns("series").get("largest_speed", ())[-1:])  # none if it failed at once
+    speed = max(filter(np.isfinite, speeds), default=0.0)
+    rate = speed / np.subtract(*bounds(result)[::-1]).min()
+    shear = fluid.get("dynamic_viscosity", 0.0) * rate
+    natural = {"velocity": speed, "vorticity": rate, "shear": shear}
+    natural["pressure"] = max(fluid.get("density", 0.0) * speed**2, shear)
+    return {name: NOISE * scale for name, scale in natural.items()}
+
+
 def limit_of(result: Result, times: Sequence[float], field: str) -> float:
     """The end of a colour scale that suits the snapshots at `times`."""
     values = [np.abs(FIELDS[field].values(result.snapshot(time)[0])) for time in times]
@@ -85,7 +104,7 @@ def limit_of(result: Result, times: Sequence[float], field: str) -> float:
     found = found[np.isfinite(found)]
     if not len(found):
         raise DataError(f"no particle has a {field}")
-    return float(np.quantile(found, SHOWN)) or 1.0
+    return max(float(np.quantile(found, SHOWN)), least_shown(result).get(field, 0.0)) or 1.0
 
 
 def draw(
@@ -100,14 +119,17 @@ def draw(
     shown, placed = FIELDS[field], np.isfinite(particles.position).all(axis=1)
     values = np.where(placed, shown.values(particles), np.nan)
     limit = limit_of(result, [time], field) if limit is None else limit
-    size = DOT * _spacing(particles.position)
-    dots = _dots(axes, particles.position, size, cmap=shown.colours)
-    dots.set_array(np.ma.masked_invalid(values))
+    spacing = _spacing(particles.position)
+    places, owners = _images(result, particles.position, UNDER * spacing / 2)
+    size = spacing * np.repeat([UNDER, DOT], len(owners))
+    dots = _dots(axes, np.tile(places, (2, 1)), size, cmap=shown.colours)
+    dots.set_array(np.ma.masked_invalid(np.tile(values[owners], 2)))
     dots.set_clim(-limit if shown.signed else 0.0, limit)
     dots.cmap = dots.cmap.with_extremes(bad=(0, 0, 0, 0))
     scenery(axes, result, wall, particles.time)
+    axes.set_facecolor(NOTHING)
     if np.any(missing := ~np.isfinite(values)):
-        _dots(axes, particles.position[missing], 2 * size, facecolor=MISSING, zorder=4)
+        _dots(axes, particles.position[missing], 2 * DOT * spacing, facecolor=MISSING, zorder=4)
         axes.plot([], [], "o", color=MISSING, label=f"not finite: {np.count_nonzero(missing)} particles")
         axes.legend(loc="upper right")
     return dots
@@ -118,10 +140,10 @@ def scenery(axes: Axes, result: Result, wall: Array, time: float) -> None:
     lower, upper = bounds(result)
     if len(wall):
         size = DOT * _spacing(wall)
-        _dots(axes, wall, size, facecolor=WALL)
-        closed = ~periodic(result)
-        lower = np.where(closed, np.minimum(lower, wall.min(axis=0) - size / 2), lower)
-        upper = np.where(closed, np.maximum(upper, wall.max(axis=0) + size / 2), upper)
+        _dots(axes, _images(result, wall, size / 2)[0], size, facecolor=WALL)
+        closed, rim = ~periodic(result), size / 4  # less than a radius: the edge of a row of dots has gaps
+        lower = np.where(closed, np.minimum(lower, wall.min(axis=0) - rim), lower)
+        upper = np.where(closed, np.maximum(upper, wall.max(axis=0) + rim), upper)
     if result.holds("discs"):
         _draw_discs(axes, result, time)
     axes.set(xlim=(lower[0], upper[0]), ylim=(lower[1], upper[1]), aspect="equal")
@@ -138,9 +160,23 @@ def _spacing(position: Array) -> float:
     return float(np.median(cKDTree(position).query(position, k=2)[0][:, 1]))
 
 
-def _dots(axes: Axes, position: Array, size: float, **style: object) -> EllipseCollection:
+def _images(result: Result, position: Array, reach: float) -> tuple[Array, Array]:
+    """Places (n, 2) of particles and, before them, of their images within `reach` (m) beyond periodic sides,
+    and whose each is (n,): what is drawn first lies beneath.
+    """
+    lower, upper = bounds(result)
+    owners = np.arange(len(position))
+    for axis in np.flatnonzero(periodic(result)):
+        shift = np.where(np.arange(2) == axis, upper - lower, 0.0)
+        low, high = position[:, axis] < lower[axis] + reach, position[:, axis] > upper[axis] - reach
+        position = np.concatenate([position[low] + shift, position[high] - shift, position])
+        owners = np.concatenate([owners[low], owners[high], owners])
+    return position, owners
+
+
+def _dots(axes: Axes, position: Array, size: float | Array, **style: object) -> EllipseCollection:
     """Circles whose diameter is in m, and so fits the spacing whatever the figure's size."""
-    sizes = np.full(len(position), size)
+    sizes = np.broadcast_to(size, len(position))
     dots = EllipseCollection(
         sizes, sizes, np.zeros(len(position)), units="xy", offsets=position,
         offset_transform=axes.transData, linewidths=0, rasterized=True, **style,

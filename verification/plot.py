@@ -16,12 +16,16 @@ import matplotlib
 
 from verification.compare import DataError
 from verification.figures import STYLE
-from verification.measure import Result, open_run
+from verification.measure import Result, open_run, unended_since
 from verification.run_figures import FIGURES
+
+STEMS = {"walls": "wall_*"}  # of a kind's files where there may be many; else its own name
 
 
 def save(result: Result, out: Path) -> tuple[list[Path], list[str]]:
-    """Writes every figure that the run has data for; returns the files, and why others were skipped."""
+    """Writes every figure that the run has data for; returns the files, and why others were skipped. Figures
+    of an earlier run that this one does not have go: they would pass for its own.
+    """
     written, skipped = [], []
     for kind, draw in FIGURES.items():
         try:
@@ -33,6 +37,9 @@ def save(result: Result, out: Path) -> tuple[list[Path], list[str]]:
                     written.append(part.replace(path))
         except (DataError, ValueError) as error:  # ValueError: columns that do not fit each other
             skipped.append(f"{kind}: skipped: {error}")
+    for kind in FIGURES:
+        for old in set(out.glob(f"{STEMS.get(kind, kind)}.png")).difference(written):
+            old.unlink()
     return written, skipped
 
 
@@ -43,7 +50,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parser.parse_args(argv)
     folder = options.run if options.run.is_dir() else options.run.parent
     try:
-        written, skipped = save(open_run(options.run), options.out or folder / "plots")
+        result = open_run(options.run)
+        for reason in unended_since(result.path):
+            print(f"plot: warning: {reason}", file=sys.stderr)
+        written, skipped = save(result, options.out or folder / "plots")
     except (DataError, OSError, RuntimeError) as error:
         print(f"plot: {error}", file=sys.stderr)
         return 2

@@ -11,10 +11,22 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from verification.compare import Array, DataError
 from verification.measure import Columns, Result
-from verification.picture import FIELDS, MISSING, SHOWN, bounds, draw, less_mean, periodic, scenery
+from verification.picture import (
+    FIELDS,
+    MISSING,
+    NOISE,
+    SHOWN,
+    bounds,
+    draw,
+    least_shown,
+    less_mean,
+    periodic,
+    scenery,
+)
 from verification.units import label, text
 
 Figures = dict[str, Figure]
@@ -59,8 +71,10 @@ def _probes(result: Result, kind: str) -> list[dict]:
     return probes
 
 
-def _wall(result: Result, probe: dict) -> dict:
-    return next(wall for wall in result.scene["walls"] if wall["name"] == probe["wall"])
+def _velocity(result: Result, probe: dict) -> Array:
+    """How fast the probe's points travel (2,), m/s; those of a wall that slides between fixed ends stay."""
+    wall = next(wall for wall in result.scene["walls"] if wall["name"] == probe["wall"])
+    return np.where(periodic(result), wall["velocity"], 0.0)
 
 
 def _along(columns: Columns) -> tuple[Array, str]:
@@ -75,9 +89,10 @@ def _last(result: Result, probe: dict, columns: Columns) -> Figure:
     time = columns["time"][-1]
     if name == "x":  # where the wall stands now, in the order of space
         lower, upper = (end[0] for end in bounds(result))
-        place = place + _wall(result, probe)["velocity"][0] * time
+        place = place + _velocity(result, probe)[0] * time
         place = lower + (place - lower) % (upper - lower) if periodic(result)[0] else place
     order = np.argsort(place)
+    least = _least_of_wall(result, columns)
     figure = Figure(figsize=(8, 6), layout="constrained")
     panels = figure.subplots(2, 1, sharex=True)
     for axes, values, of in (
@@ -85,10 +100,26 @@ def _last(result: Result, probe: dict, columns: Columns) -> Figure:
         (panels[1], columns["shear"][-1], "shear"),
     ):
         _line(axes, place[order], values[order], of, ".-")
+        _make_room(axes, least[of])
         label(axes.yaxis, of, "Pa")
     label(panels[1].xaxis, name, "m")
     figure.suptitle(f"Wall {probe['wall']} at t = {text(time, 's')}")
     return figure
+
+
+def _least_of_wall(result: Result, columns: Columns) -> dict[str, float]:
+    """Half the range that the scales of pressure and shear have at least, Pa: see least_shown()."""
+    least = least_shown(result)
+    shear = np.abs(columns["shear"][-1])
+    largest = np.max(shear, where=np.isfinite(shear), initial=0.0)
+    return {"pressure - mean": least["pressure"], "shear": max(least["shear"], NOISE * largest)}
+
+
+def _make_room(axes: Axes, least: float) -> None:
+    """Gives an axis `least` on either side of what is drawn, if that takes less."""
+    low, high = axes.dataLim.intervaly
+    if np.isfinite(high) and high - low < 2 * least:
+        axes.set_ylim((low + high) / 2 - least, (low + high) / 2 + least)
 
 
 def _map(result: Result, probe: dict, columns: Columns) -> Figure:
@@ -97,10 +128,10 @@ def _map(result: Result, probe: dict, columns: Columns) -> Figure:
     The colours suit the last half of the times; a start may be beyond them.
     """
     place, name = _along(columns)
-    moves = any(_wall(result, probe)["velocity"])
+    moves = np.any(_velocity(result, probe))
     figure = Figure(figsize=(11, 5), layout="constrained")
     panels = figure.subplots(1, 2, sharey=True)
-    change = less_mean(columns["pressure"])
+    change, room = less_mean(columns["pressure"]), _least_of_wall(result, columns)
     for axes, values, of, colours in (
         (panels[0], change, "pressure - mean", "RdBu_r"),
         (panels[1], columns["shear"], "shear", "viridis"),
@@ -108,8 +139,9 @@ def _map(result: Result, probe: dict, columns: Columns) -> Figure:
         later = values[len(values) // 2 :]
         later = later[np.isfinite(later)]
         least, most = np.quantile(later, (1 - SHOWN, SHOWN)) if later.size else (0.0, 1.0)
-        if values is change:
-            least, most = -max(-least, most), max(-least, most)
+        middle = 0.0 if values is change else (least + most) / 2
+        half = max(most - middle, middle - least, room[of])
+        least, most = middle - half, middle + half
         style = {"cmap": colours, "vmin": least, "vmax": most, "shading": "nearest", "rasterized": True}
         image = axes.pcolormesh(place, columns["time"], np.ma.masked_invalid(values), **style)
         axes.set_facecolor(MISSING)
@@ -128,12 +160,20 @@ def _map(result: Result, probe: dict, columns: Columns) -> Figure:
 def _line(axes: Axes, x: Array, y: Array, name: str, style: str = "-", **more: object) -> None:
     """A curve with gaps where it is not finite, which its name then says."""
     gaps = np.count_nonzero(~np.isfinite(y))
-    name = f"{name} (not finite: {gaps} of {y.size})" if gaps else name
-    axes.plot(x, y, style, label=name, **more)
-    if x[0] < x[-1]:
-        axes.set_xlim(x[0], x[-1])
+    _curve(axes, x, y, style, label=_with_gaps(name, gaps, y.size), **more)
     if gaps:
         axes.legend(fontsize=8)
+
+
+def _curve(axes: Axes, x: Array, y: Array, style: str = "-", **more: object) -> Line2D:
+    (line,) = axes.plot(x, y, style, **more)
+    if x[0] < x[-1]:
+        axes.set_xlim(x[0], x[-1])
+    return line
+
+
+def _with_gaps(name: str, gaps: int, samples: int) -> str:
+    return f"{name} (not finite: {gaps} of {samples})" if gaps else name
 
 
 def discs(result: Result) -> Figures:
@@ -181,15 +221,19 @@ def _unbroken(places: Array, result: Result) -> Array:
 
 def points(result: Result) -> Figures:
     """What the point probes saw over time."""
-    probes = _probes(result, "point")
+    probes, least = _probes(result, "point"), least_shown(result)
     figure = Figure(figsize=(8, 7), layout="constrained")
     panels = figure.subplots(3, 1, sharex=True)
     for probe in probes:
         columns = result.columns(f"probes/{probe['name']}")
+        gaps = 0
         for axes, name in zip(panels, ("pressure", "velocity_x", "velocity_y"), strict=True):
-            _line(axes, columns["time"], columns[name], probe["name"])
+            gaps = max(gaps, np.count_nonzero(~np.isfinite(columns[name])))
+            line = _curve(axes, columns["time"], columns[name])
+            _make_room(axes, least[name.split("_")[0]])
             label(axes.yaxis, name.replace("_", " along "), columns.units[name])
-    panels[0].legend(fontsize=8)
+        line.set_label(_with_gaps(probe["name"], gaps, line.get_xdata().size))
+    figure.legend(loc="outside upper center", ncols=3)
     label(panels[-1].xaxis, "time", "s")
     return {"points": figure}
 

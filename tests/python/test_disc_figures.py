@@ -1,5 +1,7 @@
 """Vorticity, figures and the movie of discs, from small synthetic runs."""
 
+import os
+
 import h5py
 import numpy as np
 import pytest
@@ -126,6 +128,14 @@ def test_a_movie_has_a_frame_for_each_snapshot(run, capsys, monkeypatch, choice,
     assert sorted(path.name for path in run.iterdir()) == sorted([name, "result.h5"])
     assert movie.main([str(run), "--out", str(run / "movie.mp4")]) == 2
     assert "where ffmpeg is installed" in capsys.readouterr().err
+
+
+def test_a_movie_says_when_a_later_run_did_not_end(run, capsys, monkeypatch):
+    monkeypatch.setattr(movie, "write", lambda *_: 3)
+    os.utime(run / "result.h5", (1, 1))
+    (run / "failed.h5").touch()
+    assert movie.main([str(run)]) == 0
+    assert capsys.readouterr().err.startswith(f"movie: warning: {run / 'failed.h5'} is newer than result.h5")
 
 
 @pytest.mark.parametrize("damage", ["missing", "no_scene", "one_snapshot"])
