@@ -108,12 +108,18 @@ class Reader {
     Scene scene_;
 };
 
+// Absolute with links followed, as far as it exists; empty when that cannot be found out. weakly_canonical on
+// its own leaves a relative path relative where nothing of it exists.
+std::filesystem::path links_followed(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto absolute = std::filesystem::absolute(path, error);
+    return error ? std::filesystem::path() : std::filesystem::weakly_canonical(absolute, error);
+}
+
 // Whether a path is in the folder or below, links followed.
 bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
-    std::error_code error;
-    const auto base = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
-    const auto target = std::filesystem::weakly_canonical(file, error);
-    return !error && std::ranges::mismatch(base, target).in1 == base.end();
+    const auto base = links_followed(folder.empty() ? "." : folder);
+    return !base.empty() && std::ranges::mismatch(base, links_followed(file)).in1 == base.end();
 }
 
 // The file as this process finds it: paths are relative to the scene's folder and may not leave it, not even
