@@ -11,11 +11,12 @@ using ReadDiscs = SceneFolder;
 using Words = std::vector<std::string>;
 
 TEST_F(ReadDiscs, FillsTheScene) {
-    const Scene scene = read(
-        full_scene, {"fluid.gravity=[0, -9.81]", "fluid.hydrostatics=full", "discs.single.motion=prescribed",
-                     "discs.single.velocity=[1, 0.5]", "discs.single.spin=-3", "discs.random.sizes=lognormal",
-                     "discs.random.spread=0.3", "discs.random.least_distance=0.25", "discs.random.seed=7",
-                     "contact.distance=0.2", "contact.force_scale=5", "contact.stiffness=1e-6"});
+    const Scene scene =
+        read(full_scene,
+             {"fluid.gravity=[0, -9.81]", "fluid.hydrostatics=full", "discs.single.motion=prescribed",
+              "discs.single.velocity=[1, 0.5]", "discs.single.spin=-0.5", "discs.random.sizes=lognormal",
+              "discs.random.spread=0.3", "discs.random.least_distance=0.25", "discs.random.seed=7",
+              "contact.distance=0.2", "contact.force_scale=5", "contact.stiffness=1e-6"});
     EXPECT_EQ(scene.fluid.gravity, Vector(0, -9.81));
     EXPECT_EQ(scene.fluid.hydrostatics, Hydrostatics::full);
     ASSERT_EQ(scene.discs.size(), 2U);
@@ -24,7 +25,7 @@ TEST_F(ReadDiscs, FillsTheScene) {
     EXPECT_EQ(scene.discs[0].density, 1500);
     EXPECT_EQ(scene.discs[0].motion, DiscMotion::prescribed);
     EXPECT_EQ(scene.discs[0].velocity, Vector(1, 0.5));
-    EXPECT_EQ(scene.discs[0].spin, -3);
+    EXPECT_EQ(scene.discs[0].spin, -0.5);
     EXPECT_EQ(single.radius, 0.4);
     EXPECT_EQ(single.position, Vector(1, 2));
     const auto& random = std::get<RandomDiscs>(scene.discs[1].placement);
