@@ -105,6 +105,16 @@ TEST_F(ReadDiscs, OfFewSpacingsAcrossAreWarnedOf) {
     EXPECT_TRUE(refusal(full_scene, {"discs.single.radius=0.15"}).starts_with("ACCEPTED"));
 }
 
+TEST_F(ReadDiscs, AreWarnedOfRepulsionThatReachesBeyondTheSmallest) {
+    EXPECT_TRUE(read(full_scene, {"contact.distance=0.4"}).warnings.empty());
+    const Words warnings = read(full_scene, {"discs.single.radius=0.3", "contact.distance=0.31"}).warnings;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(
+        warnings[0],
+        "--set contact.distance=0.31: found contact.distance = 0.31 (m), advised at most 0.3, the radius "
+        "of the smallest disc: discs repel each other before they are near");
+}
+
 // Changes to full_scene, and what the refusal must contain.
 struct Refusal {
     Words changes;
@@ -183,6 +193,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"contact.distance=0.09"},
                 "--set contact.distance=0.09: found contact.distance = 0.09, allowed 0, for two particle "
                 "spacings, or at least one: 0.1 (m)"},
+        Refusal{
+            {"contact.distance=2", "domain.periodic=x"},
+            "--set contact.distance=2: found contact.distance = 2, allowed less than 2 (m), half the domain "
+            "along x, which is periodic"},
+        Refusal{{"contact.distance=2"}, "ACCEPTED"},
+        Refusal{{"contact.distance=1.99", "domain.periodic=x"}, "ACCEPTED"},
         Refusal{{"contact.stiffness=0"}, "allowed a number > 0"},
         Refusal{
             {"fluid.gravity=[0, -9.81]", "domain.periodic=y"},
