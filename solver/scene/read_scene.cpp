@@ -8,6 +8,7 @@
 #include "solver/scene/profile.hpp"
 #include "solver/scene/refusal.hpp"
 #include "solver/scene/resolved.hpp"
+#include "solver/scene/wall_checks.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -177,7 +178,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
     check_scene(scene, places);
     scene.resolved_text = resolved_text(scene); // before paths are made relative to this process
     load_files(scene, places);
-    scene.warnings = check_disc_sizes(scene, places);
+    scene.warnings = check_wall_shapes(scene, places);
+    std::ranges::move(check_disc_sizes(scene, places), std::back_inserter(scene.warnings));
     return scene;
 }
 
