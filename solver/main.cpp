@@ -12,6 +12,7 @@
 #include "solver/scene/read_scene.hpp"
 #include "solver/time/checkpoint_folder.hpp"
 #include "solver/time/simulation.hpp"
+#include "solver/time/step_count.hpp"
 #include "solver/time/watchdog.hpp"
 
 #include <CLI/CLI.hpp>
@@ -28,6 +29,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace slurry {
@@ -96,6 +98,19 @@ void write_whole(const std::filesystem::path& path, std::string_view text) {
     file.commit();
 }
 
+struct Examined {
+    Region region;
+    std::vector<Disc> discs;
+};
+
+// Refuses what a run refuses, before anything is written.
+Examined examine(const Scene& scene) {
+    Region region(scene);
+    std::vector<Disc> discs = make_discs(place_discs(scene, region), scene.fluid);
+    static_cast<void>(step_count(scene, region, discs));
+    return {std::move(region), std::move(discs)};
+}
+
 void run(const Arguments& arguments) {
     RunOptions options = arguments.run;
     if (!arguments.resume.empty()) {
@@ -109,14 +124,15 @@ void run(const Arguments& arguments) {
     } else if (options.folder.empty()) {
         options.folder = arguments.scene.stem() += ".out";
     }
-    run_scene(scene_of(arguments, options.resume_from), options);
+    const Scene scene = scene_of(arguments, options.resume_from);
+    static_cast<void>(examine(scene));
+    run_scene(scene, options);
     print(""); // or a summary that got lost would go unnoticed
 }
 
 void check(const Arguments& arguments) {
     const Scene scene = scene_of(arguments);
-    const Region region(scene);
-    const std::vector<Disc> discs = make_discs(place_discs(scene, region), scene.fluid);
+    const auto [region, discs] = examine(scene);
     const std::size_t particles = fluid_points(scene, region, discs).size();
     print(fmt::format(
         "{}: ok, {} fluid particles{}\n", arguments.scene.string(), particles,
@@ -134,7 +150,7 @@ void converge(const Arguments& arguments) {
     }
     options.threads = arguments.run.threads;
     options.quiet = arguments.run.quiet;
-    static_cast<void>(scene_of(arguments)); // warns once, not at every spacing
+    static_cast<void>(examine(scene_of(arguments))); // warns once, not at every spacing
     const SceneReader read = [&](const std::vector<std::string>& more) {
         std::vector<std::string> overrides = overrides_of(arguments);
         overrides.insert(overrides.end(), more.begin(), more.end());

@@ -229,6 +229,22 @@ def test_result_is_replaced_as_a_whole(scene: Path) -> None:
     assert len(list(folder.iterdir())) == 2
 
 
+@pytest.mark.parametrize("command", ["check", "run", "converge"])
+@pytest.mark.parametrize("change", ["output.end_time=600", "fluid.dynamic_viscosity=1e6"])
+def test_too_many_steps_are_refused_before_anything_is_written(
+    scene: Path, command: str, change: str
+) -> None:
+    done = slurry(command, scene, "--set", change, cwd=scene.parent)
+    assert_refused(done, f"{scene}: found ", " steps of ", "--limit steps=")
+    assert list(scene.parent.iterdir()) == [scene]
+
+
+def test_complete_run_has_nothing_to_resume(scene: Path) -> None:
+    assert slurry("run", scene, "--quiet", cwd=scene.parent).returncode == 0
+    done = slurry("run", "--resume", "scene.out", cwd=scene.parent)
+    assert_refused(done, "scene.out: there is nothing to resume: the run is complete")
+
+
 def test_bench_prints_and_writes_the_same(tmp_path: Path) -> None:
     done = slurry("bench", "--quick", "--json", "bench.json", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")

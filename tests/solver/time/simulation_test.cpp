@@ -1,6 +1,7 @@
 // A whole run of a tiny scene.
 #include "solver/time/simulation.hpp"
 
+#include "solver/scene/read_scene.hpp"
 #include "solver/time/time_step.hpp"
 #include "solver/time/watchdog.hpp"
 #include "tests/solver/scenes_for_tests.hpp"
@@ -130,6 +131,13 @@ TEST_F(Simulation, RunThatGoesWrongLeavesNoResult) {
     scene.start.speed = 300; // 30 times the speed of sound
     EXPECT_THROW(run(scene, "run", 1), RunError);
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "run" / "result.h5"));
+}
+
+TEST_F(Simulation, OfTooManyStepsLeavesNoFolder) {
+    Scene scene = tiny_scene();
+    scene.output.end_time = 1e9;
+    EXPECT_THROW(run(scene, "run", 1), SceneError);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "run"));
 }
 
 TEST(DescribeScene, CountsParticlesAndSaysWhichTermsRun) {
