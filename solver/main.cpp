@@ -12,6 +12,7 @@
 #include "solver/scene/read_scene.hpp"
 #include "solver/time/checkpoint_folder.hpp"
 #include "solver/time/simulation.hpp"
+#include "solver/time/start_warnings.hpp"
 #include "solver/time/step_count.hpp"
 #include "solver/time/watchdog.hpp"
 
@@ -103,11 +104,12 @@ struct Examined {
     std::vector<Disc> discs;
 };
 
-// Refuses what a run refuses, before anything is written.
+// Refuses what a run refuses, before anything is written, and warns of what the geometry tells.
 Examined examine(const Scene& scene) {
     Region region(scene);
     std::vector<Disc> discs = make_discs(place_discs(scene, region), scene.fluid);
     static_cast<void>(step_count(scene, region, discs));
+    std::ranges::for_each(start_warnings(scene, region), warn);
     return {std::move(region), std::move(discs)};
 }
 

@@ -229,6 +229,19 @@ def test_result_is_replaced_as_a_whole(scene: Path) -> None:
     assert len(list(folder.iterdir())) == 2
 
 
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_covered_probe_and_thin_film_are_warned_of(scene: Path, command: str) -> None:
+    pad = WAVY_PAD.format(mean="1e-6").replace("4e-6", "1e-6")
+    text = SCENE.replace(PAD, pad).replace("position = [5e-6, 5e-6]", "position = [0.0, 1e-6]")
+    scene.write_text(text + DISC.replace("[5e-6, 5e-6]", "[5e-6, 7.8e-6]"))
+    words = ["--spacing", "5e-7", "--set", "output.end_time=1e-9"]
+    done = slurry(command, scene, *words, cwd=scene.parent)
+    assert done.returncode == 0, done.stderr
+    probe, film = done.stderr.splitlines()
+    assert probe.startswith(f"warning: {scene}: probe 'centre' at (0, 1e-06) m is behind wall 'pad'")
+    assert film.startswith(f"warning: {scene}: the film between disc 'abrasive' and wall 'wafer' is 2e-07 m")
+
+
 @pytest.mark.parametrize("command", ["check", "run", "converge"])
 @pytest.mark.parametrize("change", ["output.end_time=600", "fluid.dynamic_viscosity=1e6"])
 def test_too_many_steps_are_refused_before_anything_is_written(
