@@ -10,6 +10,7 @@
 #include "solver/particles/arrangement.hpp"
 #include "solver/scene/manual.hpp"
 #include "solver/scene/read_scene.hpp"
+#include "solver/scene/refusal.hpp"
 #include "solver/time/checkpoint_folder.hpp"
 #include "solver/time/simulation.hpp"
 #include "solver/time/start_warnings.hpp"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -206,10 +208,19 @@ void add_run_options(CLI::App& command, RunOptions& options) {
     command.add_flag("--quiet", options.quiet, "No progress and no summary");
 }
 
-// "1%" becomes "1e-2"; the rest is for the conversion that follows.
-std::string without_percent(std::string& text) {
-    if (text.ends_with('%'))
-        text.replace(text.size() - 1, 1, "e-2");
+// Takes a share, or a percentage, which it writes as a share for the conversion that follows; gives what is
+// wrong with the text, or nothing.
+std::string share_fault(std::string& text) {
+    constexpr double least = 1e-9;
+    const bool percentage = text.ends_with('%');
+    const std::string number = percentage ? text.substr(0, text.size() - 1) + "e-2" : text;
+    double share = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), share);
+    if (error != std::errc{} || end != number.data() + number.size() || !(share >= least && share <= 1))
+        return fmt::format("found {}, allowed a share from {:g} to 1, such as 0.01, or the same in per cent, "
+                           "such as 1%",
+                           printable(text), least);
+    text = number;
     return {};
 }
 
@@ -229,8 +240,7 @@ void add_converge_command(CLI::App& app, Arguments& arguments) {
     command
         ->add_option("--error", arguments.error,
                      "Wanted band, of the largest of each kind: which spacing and time does it need?")
-        ->transform(CLI::Validator(without_percent, ""))
-        ->check(CLI::Range(1e-9, 1.0))
+        ->transform(CLI::Validator(share_fault, ""))
         ->type_name("SHARE")
         ->capture_default_str();
     command->add_flag("--reuse", arguments.study.reuse,

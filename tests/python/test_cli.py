@@ -258,6 +258,16 @@ def test_complete_run_has_nothing_to_resume(scene: Path) -> None:
     assert_refused(done, "scene.out: there is nothing to resume: the run is complete")
 
 
+@pytest.mark.parametrize(
+    ("share", "shown"),
+    [("0", "0"), ("0%", "0%"), ("200%", "200%"), ("abc", "abc"), ("%", "%"), ("nan", "nan")],
+)
+def test_wanted_error_has_to_be_a_share(scene: Path, share: str, shown: str) -> None:
+    done = slurry("converge", scene, "--error", share, cwd=scene.parent)
+    assert_refused(done, f"--error: found {shown}, allowed a share from 1e-09 to 1, such as 0.01", "1%")
+    assert list(scene.parent.iterdir()) == [scene]
+
+
 def test_bench_prints_and_writes_the_same(tmp_path: Path) -> None:
     done = slurry("bench", "--quick", "--json", "bench.json", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
