@@ -261,14 +261,14 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
 std::string describe_scene(const Scene& scene) {
     const Region region(scene);
     const Particles particles = arrange_particles(scene, region);
-    const double time_step = largest_time_step(
+    const TimeStepBound bound = time_step_bound(
         scene, particles.discs, DiscContacts(scene, region).highest_frequency(particles.discs));
     std::string text =
         fmt::format("fluid particles   {}\ndummy particles   {}\ndiscs             {}\n"
-                    "time step         {:.4g} s\nsteps             {}\n"
+                    "time step         {:.4g} s\nlimited by        {}\nsteps             {}\n"
                     "neighbour reach   {:.4g} m\nterms\n",
-                    particles.fluid.size(), particles.dummies.size(), particles.discs.size(), time_step,
-                    step_count(scene, time_step), 3 * scene.numerics.smoothing_length());
+                    particles.fluid.size(), particles.dummies.size(), particles.discs.size(), bound.step,
+                    bound.cause, step_count(scene, bound.step), 3 * scene.numerics.smoothing_length());
     for (const TermReason& term : explain_terms(scene)) {
         text += fmt::format("  {:4} {:48} {}\n", term.runs ? "on" : "off", term.term, term.reason);
     }

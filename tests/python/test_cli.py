@@ -185,6 +185,7 @@ def test_info_tells_which_terms_run(scene: Path) -> None:
     done = slurry("info", scene, "--set", "numerics.density_diffusion=0", cwd=scene.parent)
     assert (done.returncode, done.stderr) == (0, "")
     assert "100" in done.stdout
+    assert "\nlimited by        sound: numerics.acoustic_cfl" in done.stdout
     off = [line for line in done.stdout.splitlines() if "Molteni" in line]
     assert len(off) == 1 and off[0].split()[0] == "off"
 

@@ -140,6 +140,31 @@ TEST_F(Simulation, OfTooManyStepsLeavesNoFolder) {
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "run"));
 }
 
+TEST(DescribeScene, SaysWhatLimitsTheTimeStep) {
+    const auto limit = [](Scene scene) {
+        const std::string text = describe_scene(scene);
+        const std::size_t begin = text.find("limited by        ") + 18;
+        return text.substr(begin, text.find(':', begin) - begin);
+    };
+    Scene scene = tiny_scene();
+    EXPECT_EQ(limit(scene), "sound");
+    scene.fluid.dynamic_viscosity = 1e4;
+    EXPECT_EQ(limit(scene), "viscosity");
+    scene = tiny_scene();
+    scene.fluid.body_force = {1e6, 0};
+    EXPECT_EQ(limit(scene), "the force on the fluid");
+    scene = doubly_periodic(24);
+    scene.output.end_time = 0.1;
+    scene.fluid.dynamic_viscosity = 10;
+    scene.discs = {middle_disc(1)};
+    EXPECT_EQ(limit(scene), "a light or small disc");
+    scene.fluid.dynamic_viscosity = 0;
+    EXPECT_EQ(limit(scene), "a light disc");
+    scene.discs = {middle_disc()};
+    scene.contact.force_scale = 1e9;
+    EXPECT_EQ(limit(scene), "the stiffest contact");
+}
+
 TEST(DescribeScene, CountsParticlesAndSaysWhichTermsRun) {
     const std::string text = describe_scene(tiny_scene());
     for (const char* part :
