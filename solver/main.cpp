@@ -11,8 +11,11 @@
 #include "solver/particles/arrangement.hpp"
 #include "solver/scene/manual.hpp"
 #include "solver/scene/read_scene.hpp"
+#include "solver/scene/refusal.hpp"
 #include "solver/time/checkpoint_folder.hpp"
 #include "solver/time/simulation.hpp"
+#include "solver/time/start_warnings.hpp"
+#include "solver/time/step_count.hpp"
 #include "solver/time/watchdog.hpp"
 
 #include <CLI/CLI.hpp>
@@ -20,6 +23,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -29,6 +33,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace slurry {
@@ -98,6 +103,20 @@ void write_whole(const std::filesystem::path& path, std::string_view text) {
     file.commit();
 }
 
+struct Examined {
+    Region region;
+    std::vector<Disc> discs;
+};
+
+// Refuses what a run refuses, before anything is written, and warns of what the geometry tells.
+Examined examine(const Scene& scene) {
+    Region region(scene);
+    std::vector<Disc> discs = make_discs(place_discs(scene, region), scene.fluid);
+    static_cast<void>(step_count(scene, region, discs));
+    std::ranges::for_each(start_warnings(scene, region), warn);
+    return {std::move(region), std::move(discs)};
+}
+
 void run(const Arguments& arguments) {
     RunOptions options = arguments.run;
     if (!arguments.resume.empty()) {
@@ -111,14 +130,15 @@ void run(const Arguments& arguments) {
     } else if (options.folder.empty()) {
         options.folder = arguments.scene.stem() += ".out";
     }
-    run_scene(scene_of(arguments, options.resume_from), options);
+    const Scene scene = scene_of(arguments, options.resume_from);
+    static_cast<void>(examine(scene));
+    run_scene(scene, options);
     print(""); // or a summary that got lost would go unnoticed
 }
 
 void check(const Arguments& arguments) {
     const Scene scene = scene_of(arguments);
-    const Region region(scene);
-    const std::vector<Disc> discs = make_discs(place_discs(scene, region), scene.fluid);
+    const auto [region, discs] = examine(scene);
     const std::size_t particles = fluid_points(scene, region, discs).size();
     print(fmt::format(
         "{}: ok, {} fluid particles{}\n", arguments.scene.string(), particles,
@@ -136,7 +156,7 @@ void converge(const Arguments& arguments) {
     }
     options.threads = arguments.run.threads;
     options.quiet = arguments.run.quiet;
-    static_cast<void>(scene_of(arguments)); // warns once, not at every spacing
+    static_cast<void>(examine(scene_of(arguments))); // warns once, not at every spacing
     const SceneReader read = [&](const std::vector<std::string>& more) {
         std::vector<std::string> overrides = overrides_of(arguments);
         overrides.insert(overrides.end(), more.begin(), more.end());
@@ -190,10 +210,19 @@ void add_run_options(CLI::App& command, RunOptions& options) {
     command.add_flag("--quiet", options.quiet, "No progress and no summary");
 }
 
-// "1%" becomes "1e-2"; the rest is for the conversion that follows.
-std::string without_percent(std::string& text) {
-    if (text.ends_with('%'))
-        text.replace(text.size() - 1, 1, "e-2");
+// Takes a share, or a percentage, which it writes as a share for the conversion that follows; gives what is
+// wrong with the text, or nothing.
+std::string share_fault(std::string& text) {
+    constexpr double least = 1e-9;
+    const bool percentage = text.ends_with('%');
+    const std::string number = percentage ? text.substr(0, text.size() - 1) + "e-2" : text;
+    double share = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), share);
+    if (error != std::errc{} || end != number.data() + number.size() || !(share >= least && share <= 1))
+        return fmt::format("found {}, allowed a share from {:g} to 1, such as 0.01, or the same in per cent, "
+                           "such as 1%",
+                           printable(text), least);
+    text = number;
     return {};
 }
 
@@ -213,8 +242,7 @@ void add_converge_command(CLI::App& app, Arguments& arguments) {
     command
         ->add_option("--error", arguments.error,
                      "Wanted band, of the largest of each kind: which spacing and time does it need?")
-        ->transform(CLI::Validator(without_percent, ""))
-        ->check(CLI::Range(1e-9, 1.0))
+        ->transform(CLI::Validator(share_fault, ""))
         ->type_name("SHARE")
         ->capture_default_str();
     command->add_flag("--reuse", arguments.study.reuse,

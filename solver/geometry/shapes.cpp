@@ -5,6 +5,7 @@
 #include "solver/geometry/periodic_pieces.hpp"
 #include "solver/geometry/random_profile.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
 #include <numbers>
@@ -145,6 +146,23 @@ Pieces pieces_of(const SineShape& shape, const WallScene& wall, const Domain& do
                           window.centre - half, window.centre + half));
 }
 
+// A profile that covers a thousand domains with hardly a point in this one is of another unit.
+void require_points_in(const WallScene& wall, const std::vector<double>& x, const Domain& domain) {
+    constexpr double most_domains = 1e3;
+    constexpr std::ptrdiff_t fewest_points = 3;
+    const double width = domain.size().x();
+    const double slack = rounding * width;
+    const double ratio = (x.back() - x.front()) / width;
+    const auto inside = std::ranges::count_if(
+        x, [&](double knot) { return knot >= domain.lower.x() - slack && knot <= domain.upper.x() + slack; });
+    if (ratio > most_domains && inside < fewest_points)
+        refuse(wall, fmt::format(
+                         "the profile covers x = {:g} to {:g} m, {:.3g} times the domain's width of {:g} m, "
+                         "and has {} of its points in the domain, but needs {} or more: is it in um? The "
+                         "file has to be in m",
+                         x.front(), x.back(), ratio, width, inside, fewest_points));
+}
+
 Pieces pieces_of(const ProfileShape& shape, const WallScene& wall, const Domain& domain) {
     const double lower = domain.lower.x();
     const double upper = domain.upper.x();
@@ -165,6 +183,7 @@ Pieces pieces_of(const ProfileShape& shape, const WallScene& wall, const Domain&
         refuse(wall, fmt::format(
                          "the profile covers x = {:g} to {:g} m, but the domain reaches from {:g} to {:g} m",
                          x.front(), x.back(), lower, upper));
+    require_points_in(wall, x, domain);
     const bool spans = std::abs(x.front() - lower) <= slack && std::abs(x.back() - upper) <= slack;
     const bool meets = std::abs(y.front() - y.back()) <= slack;
     Spline::Kind kind = Spline::Kind::steffen;

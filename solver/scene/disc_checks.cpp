@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 #include <string_view>
 
@@ -108,6 +109,16 @@ void check_contact(const Scene& scene, const Places& places) {
         refuse(places.of("contact.distance"), fmt::format("contact.distance = {}", distance),
                fmt::format("0, for two particle spacings, or at least one: {} (m)", spacing));
     }
+    for (const int axis : {0, 1}) {
+        const double half = scene.domain.size()[axis] / 2;
+        if (!scene.discs.empty() && scene.domain.periodic[static_cast<std::size_t>(axis)] &&
+            !(distance < half)) {
+            refuse(places.of("contact.distance"), fmt::format("contact.distance = {}", distance),
+                   fmt::format("less than {:.4g} (m), half the domain along {}, which is periodic: a disc "
+                               "would be pushed by another from both sides",
+                               half, axis == 0 ? 'x' : 'y'));
+        }
+    }
 }
 
 // The smallest radius and the key that it comes from.
@@ -185,8 +196,10 @@ void check_discs(const Scene& scene, const Places& places) {
 
 std::vector<std::string> check_disc_sizes(const Scene& scene, const Places& places) {
     std::vector<std::string> warnings;
+    double smallest = std::numeric_limits<double>::infinity();
     for (const DiscScene& disc : scene.discs) {
         const auto [radius, key] = smallest_radius(disc);
+        smallest = std::min(smallest, radius);
         check_start_distance(scene, disc, radius, places);
         const double across = 2 * radius / scene.numerics.particle_spacing;
         const std::string found = fmt::format(
@@ -210,6 +223,12 @@ std::vector<std::string> check_disc_sizes(const Scene& scene, const Places& plac
                 "{}: found {}, advised at least {}: a particle_spacing of at most {:.4g} (m)", places.of(key),
                 found, enough_spacings_across, 2 * radius / enough_spacings_across));
         }
+    }
+    if (scene.contact.distance > smallest * (1 + 1e-9)) {
+        warnings.push_back(
+            fmt::format("{}: found contact.distance = {} (m), advised at most {:.4g}, the radius "
+                        "of the smallest disc: discs repel each other before they are near",
+                        places.of("contact.distance"), scene.contact.distance, smallest));
     }
     return warnings;
 }

@@ -9,6 +9,7 @@
 #include "solver/scene/refusal.hpp"
 #include "solver/scene/resolved.hpp"
 #include "solver/scene/stability_checks.hpp"
+#include "solver/scene/wall_checks.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -109,12 +110,18 @@ class Reader {
     Scene scene_;
 };
 
+// Absolute with links followed, as far as it exists; empty when that cannot be found out. weakly_canonical on
+// its own leaves a relative path relative where nothing of it exists.
+std::filesystem::path links_followed(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto absolute = std::filesystem::absolute(path, error);
+    return error ? std::filesystem::path() : std::filesystem::weakly_canonical(absolute, error);
+}
+
 // Whether a path is in the folder or below, links followed.
 bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
-    std::error_code error;
-    const auto base = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
-    const auto target = std::filesystem::weakly_canonical(file, error);
-    return !error && std::ranges::mismatch(base, target).in1 == base.end();
+    const auto base = links_followed(folder.empty() ? "." : folder);
+    return !base.empty() && std::ranges::mismatch(base, links_followed(file)).in1 == base.end();
 }
 
 // The file as this process finds it: paths are relative to the scene's folder and may not leave it, not even
@@ -172,7 +179,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path,
     check_scene(scene, places);
     scene.resolved_text = resolved_text(scene); // before paths are made relative to this process
     load_files(scene, places);
-    scene.warnings = check_disc_sizes(scene, places);
+    scene.warnings = check_wall_shapes(scene, places);
+    std::ranges::move(check_disc_sizes(scene, places), std::back_inserter(scene.warnings));
     std::ranges::move(check_cell_reynolds(scene, places), std::back_inserter(scene.warnings));
     return scene;
 }

@@ -90,23 +90,37 @@ void check_vortices(const Scene& scene, const Places& places) {
     }
 }
 
-// A disc that starts at a speed U against the fluid compresses what is in its way by U / c. Where random
+// The largest radius, as far as the scene's file says: that of a lognormal distribution is the median, and
+// files of radii are read later (0).
+double largest_radius(const DiscScene& disc) {
+    const auto* random = std::get_if<RandomDiscs>(&disc.placement);
+    if (random == nullptr) {
+        return std::get<SingleDisc>(disc.placement).radius;
+    }
+    return random->sizes == SizeDistribution::uniform ? random->radius * (1 + random->spread)
+                                                      : random->radius;
+}
+
+// A disc whose rim starts at a speed U against the fluid compresses what is in its way by U / c. Where random
 // discs will be is not known: they are taken to go with the flow.
 void check_disc_speeds(const Scene& scene, const Places& places) {
     const double most = 0.1 * scene.numerics.sound_speed;
     for (const DiscScene& disc : scene.discs) {
+        const bool moves = disc.velocity != Vector::Zero();
         const auto* single = std::get_if<SingleDisc>(&disc.placement);
-        const double speed = single != nullptr
-                                 ? (disc.velocity - start_velocity(scene, single->position)).norm()
-                                 : disc.velocity.norm() - std::abs(scene.start.speed);
-        if (disc.velocity != Vector::Zero() && !(speed <= most * (1 + 1e-9))) {
-            refuse(
-                places.of("discs." + disc.name + ".velocity"),
-                fmt::format(R"(a disc "{}" that starts at {:.4g} (m/s) against the fluid)", disc.name, speed),
-                fmt::format(
-                    "at most {:.4g}, a tenth of numerics.sound_speed: the start compresses the fluid in "
-                    "its way",
-                    most));
+        const double against = single != nullptr
+                                   ? (disc.velocity - start_velocity(scene, single->position)).norm()
+                                   : std::max(0.0, disc.velocity.norm() - std::abs(scene.start.speed));
+        const double turning = std::abs(disc.spin) * largest_radius(disc);
+        const double speed = (moves ? against : 0) + turning;
+        if (!(speed <= most * (1 + 1e-9))) {
+            const bool by_spin = turning > speed / 2;
+            refuse(places.of(fmt::format("discs.{}.{}", disc.name, by_spin ? "spin" : "velocity")),
+                   fmt::format(R"(a disc "{}" {} at {:.4g} (m/s) against the fluid)", disc.name,
+                               turning > 0 ? "whose rim starts" : "that starts", speed),
+                   fmt::format("at most {:.4g}, a tenth of numerics.sound_speed: the start compresses the "
+                               "fluid in its way",
+                               most));
         }
     }
 }

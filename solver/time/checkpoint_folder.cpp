@@ -31,6 +31,14 @@ std::string fault_of(const std::filesystem::path& path) {
     }
 }
 
+// Whether a run in this folder came to its end: a result gets its name when it is whole, and what a run that
+// was killed leaves of its own has another.
+bool holds_result(const std::filesystem::path& folder) {
+    std::error_code error;
+    return std::filesystem::exists(folder / "result.h5", error) &&
+           !std::filesystem::exists(folder / "result.h5.partial", error);
+}
+
 } // namespace
 
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder) {
@@ -41,6 +49,12 @@ FoundCheckpoint find_checkpoint(const std::filesystem::path& folder) {
     const std::string fault_before = fault_of(previous_in(folder));
     if (fault_before.empty()) {
         return {previous_in(folder), fmt::format("{}; going on from the one before", fault)};
+    }
+    if (std::error_code error; !std::filesystem::exists(current_in(folder), error) &&
+                               !std::filesystem::exists(previous_in(folder), error) && holds_result(folder)) {
+        throw ReadError(fmt::format("{}: there is nothing to resume: the run is complete, its result is {}; "
+                                    "to run the scene again, leave out --resume",
+                                    folder.string(), (folder / "result.h5").string()));
     }
     throw ReadError(fmt::format("{}: no checkpoint to resume from: {}; {}; start the run again without "
                                 "--resume",

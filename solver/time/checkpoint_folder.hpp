@@ -13,7 +13,7 @@ struct FoundCheckpoint {
     std::filesystem::path path;
     std::string warning; // why an earlier one was taken; empty if it was not
 };
-// Throws ReadError when there is none, and says why each is not good.
+// Throws ReadError when there is none, and says why each is not good, or that the run is complete.
 [[nodiscard]] FoundCheckpoint find_checkpoint(const std::filesystem::path& folder);
 
 class CheckpointFolder {

@@ -1,17 +1,19 @@
 #include "solver/time/simulation.hpp"
 
 #include "solver/discs/contact.hpp"
+#include "solver/discs/motion.hpp"
+#include "solver/discs/placement.hpp"
 #include "solver/loop/interactions.hpp"
 #include "solver/output/phase_clock.hpp"
 #include "solver/output/progress.hpp"
 #include "solver/output/result_file.hpp"
 #include "solver/particles/arrangement.hpp"
-#include "solver/scene/refusal.hpp"
 #include "solver/terms/selection.hpp"
 #include "solver/time/checkpoint_folder.hpp"
 #include "solver/time/density_error.hpp"
 #include "solver/time/interruption.hpp"
 #include "solver/time/recorder.hpp"
+#include "solver/time/step_count.hpp"
 #include "solver/time/time_step.hpp"
 #include "solver/time/velocity_verlet.hpp"
 #include "solver/time/watchdog.hpp"
@@ -31,18 +33,6 @@ namespace {
 
 // The walls' distances make a check as dear as a few steps; this many in a run cost about 1 %.
 constexpr long checks_per_run = 50;
-
-// Steps of equal length that end exactly at the end time. Throws SceneError when they are beyond the limits.
-long step_count(const Scene& scene, double time_step) {
-    const double steps = std::ceil(scene.output.end_time / time_step * (1 - 1e-12));
-    if (!(steps <= scene.limits.steps)) {
-        refuse(printable_path(scene.path),
-               fmt::format("{:.4g} steps of {:.4g} s to output.end_time = {} (s)", steps, time_step,
-                           scene.output.end_time),
-               limit_text(scene.limits, &Limits::steps, steps));
-    }
-    return std::max(1L, static_cast<long>(steps));
-}
 
 // Waking a thread takes as long as the pairs of some hundred particles. The answer is the same for any
 // number.
@@ -111,13 +101,11 @@ class Run {
   public:
     Run(const Scene& scene, const RunOptions& options)
         : scene_(scene), options_(options), region_(scene),
+          steps_(step_count(scene, region_, make_discs(place_discs(scene, region_), scene.fluid))),
           file_(options.folder, scene, program_version(), options.overwrite),
           particles_(timed_start(scene, region_, clock_)),
           threads_(useful_threads(options.threads, particles_)), sums_(make_interactions(scene)),
-          contacts_(scene, region_),
-          steps_(step_count(scene, largest_time_step(scene, particles_.discs,
-                                                     contacts_.highest_frequency(particles_.discs)))),
-          time_step_(scene.output.end_time / static_cast<double>(steps_)),
+          contacts_(scene, region_), time_step_(scene.output.end_time / static_cast<double>(steps_)),
           check_interval_(std::max(1L, steps_ / checks_per_run)), forces_{*sums_, contacts_, scene.fluid,
                                                                           scene.numerics.sound_speed,
                                                                           scene.numerics.keep_mean_density},
@@ -251,12 +239,12 @@ class Run {
     const Scene& scene_;
     const RunOptions& options_;
     const Region region_;
+    const long steps_; // before the file: a run of too many steps is refused and leaves no folder
     ResultFile file_;
     Particles particles_;
     const int threads_;
     const std::unique_ptr<Interactions> sums_;
     DiscContacts contacts_;
-    const long steps_;
     const double time_step_;
     const long check_interval_;
     Forces forces_;
@@ -276,14 +264,14 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
 std::string describe_scene(const Scene& scene) {
     const Region region(scene);
     const Particles particles = arrange_particles(scene, region);
-    const double time_step = largest_time_step(
+    const TimeStepBound bound = time_step_bound(
         scene, particles.discs, DiscContacts(scene, region).highest_frequency(particles.discs));
     std::string text =
         fmt::format("fluid particles   {}\ndummy particles   {}\ndiscs             {}\n"
-                    "time step         {:.4g} s\nsteps             {}\n"
+                    "time step         {:.4g} s\nlimited by        {}\nsteps             {}\n"
                     "neighbour reach   {:.4g} m\nterms\n",
-                    particles.fluid.size(), particles.dummies.size(), particles.discs.size(), time_step,
-                    step_count(scene, time_step), 3 * scene.numerics.smoothing_length());
+                    particles.fluid.size(), particles.dummies.size(), particles.discs.size(), bound.step,
+                    bound.cause, step_count(scene, bound.step), 3 * scene.numerics.smoothing_length());
     for (const TermReason& term : explain_terms(scene)) {
         text += fmt::format("  {:4} {:48} {}\n", term.runs ? "on" : "off", term.term, term.reason);
     }

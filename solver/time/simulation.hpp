@@ -21,10 +21,12 @@ struct RunSummary {
 };
 
 // Runs the scene and writes result.h5 and result.xdmf into the folder; a state that goes wrong into
-// failed.h5. Throws GeometryError, OutputError, ReadError, RunError, RunInterrupted.
+// failed.h5. Throws SceneError (steps beyond the limits), GeometryError, OutputError, ReadError, RunError,
+// RunInterrupted.
 RunSummary run_scene(const Scene& scene, const RunOptions& options);
 
-// What `slurry info` prints: particles, steps, and which terms run and why. Throws GeometryError.
+// What `slurry info` prints: particles, steps, what limits them, and which terms run and why. Throws
+// SceneError (steps beyond the limits), GeometryError.
 std::string describe_scene(const Scene& scene);
 
 } // namespace slurry

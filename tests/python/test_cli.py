@@ -185,6 +185,7 @@ def test_info_tells_which_terms_run(scene: Path) -> None:
     done = slurry("info", scene, "--set", "numerics.density_diffusion=0", cwd=scene.parent)
     assert (done.returncode, done.stderr) == (0, "")
     assert "100" in done.stdout
+    assert "\nlimited by        sound: numerics.acoustic_cfl" in done.stdout
     off = [line for line in done.stdout.splitlines() if "Molteni" in line]
     assert len(off) == 1 and off[0].split()[0] == "off"
 
@@ -260,6 +261,45 @@ def test_result_is_replaced_as_a_whole(scene: Path) -> None:
         with h5py.File(folder / "result.h5") as file:
             assert file["run"].attrs["fluid_particles"] == particles
     assert len(list(folder.iterdir())) == 2
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_covered_probe_and_thin_film_are_warned_of(scene: Path, command: str) -> None:
+    pad = WAVY_PAD.format(mean="1e-6").replace("4e-6", "1e-6")
+    text = SCENE.replace(PAD, pad).replace("position = [5e-6, 5e-6]", "position = [0.0, 1e-6]")
+    scene.write_text(text + DISC.replace("[5e-6, 5e-6]", "[5e-6, 7.8e-6]"))
+    words = ["--spacing", "5e-7", "--set", "output.end_time=1e-9"]
+    done = slurry(command, scene, *words, cwd=scene.parent)
+    assert done.returncode == 0, done.stderr
+    probe, film = done.stderr.splitlines()
+    assert probe.startswith(f"warning: {scene}: probe 'centre' at (0, 1e-06) m is behind wall 'pad'")
+    assert film.startswith(f"warning: {scene}: the film between disc 'abrasive' and wall 'wafer' is 2e-07 m")
+
+
+@pytest.mark.parametrize("command", ["check", "run", "converge"])
+@pytest.mark.parametrize("change", ["output.end_time=600", "fluid.dynamic_viscosity=1e6"])
+def test_too_many_steps_are_refused_before_anything_is_written(
+    scene: Path, command: str, change: str
+) -> None:
+    done = slurry(command, scene, "--set", change, cwd=scene.parent)
+    assert_refused(done, f"{scene}: found ", " steps of ", "--limit steps=")
+    assert list(scene.parent.iterdir()) == [scene]
+
+
+def test_complete_run_has_nothing_to_resume(scene: Path) -> None:
+    assert slurry("run", scene, "--quiet", cwd=scene.parent).returncode == 0
+    done = slurry("run", "--resume", "scene.out", cwd=scene.parent)
+    assert_refused(done, "scene.out: there is nothing to resume: the run is complete")
+
+
+@pytest.mark.parametrize(
+    ("share", "shown"),
+    [("0", "0"), ("0%", "0%"), ("200%", "200%"), ("abc", "abc"), ("%", "%"), ("nan", "nan")],
+)
+def test_wanted_error_has_to_be_a_share(scene: Path, share: str, shown: str) -> None:
+    done = slurry("converge", scene, "--error", share, cwd=scene.parent)
+    assert_refused(done, f"--error: found {shown}, allowed a share from 1e-09 to 1, such as 0.01", "1%")
+    assert list(scene.parent.iterdir()) == [scene]
 
 
 def test_bench_prints_and_writes_the_same(tmp_path: Path) -> None:

@@ -112,9 +112,10 @@ def test_a_variant_may_have_a_scene_of_its_own():
     assert [scene["walls"][0]["shape"] for scene in scenes] == ["arc", "arc", "sine"]
     for scene in scenes:
         assert scene["walls"][1:] == scenes[0]["walls"][1:]
-        assert {key: scene[key] for key in ("domain", "fluid", "numerics", "output", "probes")} == {
-            key: scenes[0][key] for key in ("domain", "fluid", "numerics", "output", "probes")
+        assert {key: scene[key] for key in ("domain", "fluid", "numerics", "output")} == {
+            key: scenes[0][key] for key in ("domain", "fluid", "numerics", "output")
         }
+        assert scene["probes"][0] == scenes[0]["probes"][0]
     assert CASE.path(Variant("other", {})) == CASE.scene_path
 
 

@@ -254,6 +254,9 @@ std::vector<BadWall> bad_walls() {
     std::swap(unsorted.points[3], unsorted.points[4]);
     ProfileShape uneven = testing::measured_profile();
     uneven.points.back().y() += 0.1;
+    ProfileShape micrometres = testing::measured_profile(); // its sides are at the same height
+    for (Vector& point : micrometres.points)
+        point *= 1e6;
     const LineShape flat{{0, 0.5}, {2, 0.5}};
     const CosineShape wave{0.3, 0.1, 1, 0};
     return {
@@ -274,6 +277,9 @@ std::vector<BadWall> bad_walls() {
         {make_wall("w", RandomShape{0.3, 0.1, 0.009, 1}, FluidSide::above), true, "1 / 200"},
         {make_wall("w", RandomShape{0.3, 0, 0.1, 1}, FluidSide::above), true, "rms_height"},
         {make_wall("w", narrow, FluidSide::above), true, "covers"},
+        {make_wall("w", micrometres, FluidSide::above), true,
+         "covers x = 0 to 2e+06 m, 1e+06 times the domain's width of 2 m, and has 1 of its points in the "
+         "domain, but needs 3 or more: is it in um?"},
         {make_wall("w", unsorted, FluidSide::above), true, "row 5"},
         {make_wall("w", uneven, FluidSide::above), true, "heights"},
         {make_wall("w", wave, FluidSide::above, {0, 1}), true, "along y"},

@@ -11,11 +11,12 @@ using ReadDiscs = SceneFolder;
 using Words = std::vector<std::string>;
 
 TEST_F(ReadDiscs, FillsTheScene) {
-    const Scene scene = read(
-        full_scene, {"fluid.gravity=[0, -9.81]", "fluid.hydrostatics=full", "discs.single.motion=prescribed",
-                     "discs.single.velocity=[1, 0.5]", "discs.single.spin=-3", "discs.random.sizes=lognormal",
-                     "discs.random.spread=0.3", "discs.random.least_distance=0.25", "discs.random.seed=7",
-                     "contact.distance=0.2", "contact.force_scale=5", "contact.stiffness=1e-6"});
+    const Scene scene =
+        read(full_scene,
+             {"fluid.gravity=[0, -9.81]", "fluid.hydrostatics=full", "discs.single.motion=prescribed",
+              "discs.single.velocity=[1, 0.5]", "discs.single.spin=-0.5", "discs.random.sizes=lognormal",
+              "discs.random.spread=0.3", "discs.random.least_distance=0.25", "discs.random.seed=7",
+              "contact.distance=0.2", "contact.force_scale=5", "contact.stiffness=1e-6"});
     EXPECT_EQ(scene.fluid.gravity, Vector(0, -9.81));
     EXPECT_EQ(scene.fluid.hydrostatics, Hydrostatics::full);
     ASSERT_EQ(scene.discs.size(), 2U);
@@ -24,7 +25,7 @@ TEST_F(ReadDiscs, FillsTheScene) {
     EXPECT_EQ(scene.discs[0].density, 1500);
     EXPECT_EQ(scene.discs[0].motion, DiscMotion::prescribed);
     EXPECT_EQ(scene.discs[0].velocity, Vector(1, 0.5));
-    EXPECT_EQ(scene.discs[0].spin, -3);
+    EXPECT_EQ(scene.discs[0].spin, -0.5);
     EXPECT_EQ(single.radius, 0.4);
     EXPECT_EQ(single.position, Vector(1, 2));
     const auto& random = std::get<RandomDiscs>(scene.discs[1].placement);
@@ -102,6 +103,16 @@ TEST_F(ReadDiscs, OfFewSpacingsAcrossAreWarnedOf) {
               "--set discs.single.radius=0.25: found a disc \"single\" of radius 0.25 (m), 5 particle "
               "spacings across, advised at least 6: a particle_spacing of at most 0.08333 (m)");
     EXPECT_TRUE(refusal(full_scene, {"discs.single.radius=0.15"}).starts_with("ACCEPTED"));
+}
+
+TEST_F(ReadDiscs, AreWarnedOfRepulsionThatReachesBeyondTheSmallest) {
+    EXPECT_TRUE(read(full_scene, {"contact.distance=0.4"}).warnings.empty());
+    const Words warnings = read(full_scene, {"discs.single.radius=0.3", "contact.distance=0.31"}).warnings;
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(
+        warnings[0],
+        "--set contact.distance=0.31: found contact.distance = 0.31 (m), advised at most 0.3, the radius "
+        "of the smallest disc: discs repel each other before they are near");
 }
 
 // Changes to full_scene, and what the refusal must contain.
@@ -182,6 +193,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"contact.distance=0.09"},
                 "--set contact.distance=0.09: found contact.distance = 0.09, allowed 0, for two particle "
                 "spacings, or at least one: 0.1 (m)"},
+        Refusal{
+            {"contact.distance=2", "domain.periodic=x"},
+            "--set contact.distance=2: found contact.distance = 2, allowed less than 2 (m), half the domain "
+            "along x, which is periodic"},
+        Refusal{{"contact.distance=2"}, "ACCEPTED"},
+        Refusal{{"contact.distance=1.99", "domain.periodic=x"}, "ACCEPTED"},
         Refusal{{"contact.stiffness=0"}, "allowed a number > 0"},
         Refusal{
             {"fluid.gravity=[0, -9.81]", "domain.periodic=y"},

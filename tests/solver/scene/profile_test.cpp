@@ -39,6 +39,26 @@ TEST_F(Profile, RefusesTooFewPoints) {
     EXPECT_EQ(refusal_of("0, 1\n"), "scene.toml:64:8: found profile.csv with 1 points, allowed at least 2");
 }
 
+TEST_F(Profile, ThatIsMissingIsSaidToBeMissingInTheSceneOfTheWorkingFolder) {
+    write("scene.toml", replaced(full_scene, "\"profile.csv\"", "\"absent.csv\""));
+    write("sizes.toml", replaced(replaced(full_scene, "count = 3\nradius = 0.4",
+                                          "count = 3\nradius = 0\nsizes = \"file\"\nfile = \"absent.csv\""),
+                                 "file = \"profile.csv\"", "file = \"./profile.csv\""));
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(path(""));
+    for (const char* name : {"scene.toml", "./scene.toml", "sizes.toml"}) {
+        try {
+            (void)read_scene(name);
+            ADD_FAILURE() << "accepted " << name;
+        } catch (const SceneError& error) {
+            EXPECT_NE(std::string(error.what()).find("found no regular file "), std::string::npos)
+                << error.what();
+            EXPECT_NE(std::string(error.what()).find("absent.csv"), std::string::npos) << error.what();
+        }
+    }
+    std::filesystem::current_path(before);
+}
+
 TEST_F(Profile, StaysInTheFolderUnlessAbsolute) {
     std::filesystem::create_directory(path("below"));
     write("below/pad.csv", "0,1\n1,1\n");

@@ -76,6 +76,21 @@ INSTANTIATE_TEST_SUITE_P(
                  "discs.random.velocity=[0, 1.9]",
                  "discs.random.velocity",
                  "a disc \"random\" that starts at 1.1 (m/s) against the fluid",
+                 "at most 1, a tenth of numerics.sound_speed"},
+        Unstable{{"discs.single.spin=-2.6"}, // with a rim at 1.04 m/s; the shear does not count at rest
+                 "discs.single.spin=-2.4",
+                 "discs.single.spin",
+                 "a disc \"single\" whose rim starts at 1.04 (m/s) against the fluid",
+                 "at most 1, a tenth of numerics.sound_speed"},
+        Unstable{{"discs.single.spin=1", "discs.single.velocity=[1.2, 0]"},
+                 "discs.single.velocity=[1.05, 0]",
+                 "discs.single.velocity",
+                 "a disc \"single\" whose rim starts at 1.1 (m/s) against the fluid",
+                 "at most 1, a tenth of numerics.sound_speed"},
+        Unstable{{"discs.random.sizes=\"uniform\"", "discs.random.spread=0.5", "discs.random.spin=1.7"},
+                 "discs.random.spin=1.6",
+                 "discs.random.spin",
+                 "a disc \"random\" whose rim starts at 1.02 (m/s) against the fluid",
                  "at most 1, a tenth of numerics.sound_speed"}));
 
 // Of Eq. 2.27: from 0.37 of the contact distance on, discs get no faster than half of what stops at touch.

@@ -23,6 +23,30 @@ void write_bytes(const fs::path& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
+TEST(FindCheckpoint, SaysWhenTheRunIsComplete) {
+    const OwnFolder folder;
+    const auto reason = [&] {
+        try {
+            return find_checkpoint(folder.path()).path.string();
+        } catch (const ReadError& error) {
+            return std::string(error.what());
+        }
+    };
+    const std::string lacking = "no checkpoint to resume from";
+    EXPECT_NE(reason().find(lacking), std::string::npos) << reason();
+    const fs::path result = folder.path() / "result.h5";
+    write_bytes(result, "whole");
+    EXPECT_NE(
+        reason().find("there is nothing to resume: the run is complete, its result is " + result.string()),
+        std::string::npos)
+        << reason();
+    write_bytes(folder.path() / "result.h5.partial", "of a second run, killed before its first checkpoint");
+    EXPECT_NE(reason().find(lacking), std::string::npos) << reason();
+    fs::remove(folder.path() / "result.h5.partial");
+    write_bytes(folder.path() / "checkpoint.previous.h5", "damaged");
+    EXPECT_NE(reason().find(lacking), std::string::npos) << reason();
+}
+
 class CheckpointFolderTest : public ::testing::Test {
   protected:
     CheckpointFolderTest() { run_.go_to(1); }

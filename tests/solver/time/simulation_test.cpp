@@ -1,6 +1,7 @@
 // A whole run of a tiny scene.
 #include "solver/time/simulation.hpp"
 
+#include "solver/scene/read_scene.hpp"
 #include "solver/time/time_step.hpp"
 #include "solver/time/watchdog.hpp"
 #include "tests/solver/scenes_for_tests.hpp"
@@ -130,6 +131,38 @@ TEST_F(Simulation, RunThatGoesWrongLeavesNoResult) {
     scene.start.speed = 300; // 30 times the speed of sound
     EXPECT_THROW(run(scene, "run", 1), RunError);
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "run" / "result.h5"));
+}
+
+TEST_F(Simulation, OfTooManyStepsLeavesNoFolder) {
+    Scene scene = tiny_scene();
+    scene.output.end_time = 1e9;
+    EXPECT_THROW(run(scene, "run", 1), SceneError);
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "run"));
+}
+
+TEST(DescribeScene, SaysWhatLimitsTheTimeStep) {
+    const auto limit = [](Scene scene) {
+        const std::string text = describe_scene(scene);
+        const std::size_t begin = text.find("limited by        ") + 18;
+        return text.substr(begin, text.find(':', begin) - begin);
+    };
+    Scene scene = tiny_scene();
+    EXPECT_EQ(limit(scene), "sound");
+    scene.fluid.dynamic_viscosity = 1e4;
+    EXPECT_EQ(limit(scene), "viscosity");
+    scene = tiny_scene();
+    scene.fluid.body_force = {1e6, 0};
+    EXPECT_EQ(limit(scene), "the force on the fluid");
+    scene = doubly_periodic(24);
+    scene.output.end_time = 0.1;
+    scene.fluid.dynamic_viscosity = 10;
+    scene.discs = {middle_disc(1)};
+    EXPECT_EQ(limit(scene), "a light or small disc");
+    scene.fluid.dynamic_viscosity = 0;
+    EXPECT_EQ(limit(scene), "a light disc");
+    scene.discs = {middle_disc()};
+    scene.contact.force_scale = 1e9;
+    EXPECT_EQ(limit(scene), "the stiffest contact");
 }
 
 TEST(DescribeScene, CountsParticlesAndSaysWhichTermsRun) {
