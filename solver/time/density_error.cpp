@@ -57,9 +57,8 @@ std::string density_advice(const Scene& scene, const DensityFault& fault) {
                            largest_trusted_jump, start_jump_advice(scene, fault.jump));
     }
     if (numerics.background_pressure_ratio == 0) {
-        return "particles clump where nothing spaces them: set numerics.background_pressure_ratio to 1 "
-               "instead "
-               "of 0";
+        return "particles clump where nothing spaces them: set numerics.background_pressure_ratio to 1, "
+               "not 0";
     }
     // Fluid at the speed of sound shows that the run went wrong, not why.
     if (fault.fluid_speed > limit && fault.fluid_speed < sound_speed) {
@@ -70,9 +69,8 @@ std::string density_advice(const Scene& scene, const DensityFault& fault) {
                            "numerics.particle_spacing to {:.4g}, or raise numerics.sound_speed",
                            across, fewest_across_a_gap, fault.gap / fewest_across_a_gap);
     }
-    return "reduce numerics.acoustic_cfl, or raise numerics.sound_speed: the density error of a flow falls "
-           "with "
-           "its square";
+    return "reduce numerics.acoustic_cfl, or raise numerics.sound_speed: a flow's density error falls "
+           "with its square";
 }
 
 double gap_around(const Particles& particles, const Region& region, const Vector& place) {

@@ -35,7 +35,7 @@ const std::string name_of(const ::testing::TestParamInfo<Diagnosis>& info) {
     return info.param.name;
 }
 
-const char* const general = "reduce numerics.acoustic_cfl, or raise numerics.sound_speed: the density error";
+const char* const general = "reduce numerics.acoustic_cfl, or raise numerics.sound_speed: a flow's density error";
 const char* const too_fast = "walls, discs or the start move at up to 2 m/s, 0.2 of numerics.sound_speed, "
                              "allowed 0.1: raise numerics.sound_speed to 20";
 
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
                       scene.numerics.background_pressure_ratio = 0;
                       fault.gap = 0.01;
                   },
-                  "set numerics.background_pressure_ratio to 1 instead of 0"},
+                  "set numerics.background_pressure_ratio to 1, not 0"},
         Diagnosis{"FastFluid", [](Scene&, DensityFault& fault) { fault.fluid_speed = 3; },
                   "the fluid moves at up to 3 m/s, 0.3 of numerics.sound_speed, allowed 0.1: raise "
                   "numerics.sound_speed to 30"},
