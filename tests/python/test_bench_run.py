@@ -70,7 +70,7 @@ def test_what_the_solver_lacks_is_left_out_with_a_note(solver, tmp_path):
     for missing in (
         "numerics.pair_arithmetic",
         "numerics.kernel",
-        "numerics.pressure_mean",
+        "numerics.particle_volume",
         "command `bench`",
     ):
         assert missing in notes
