@@ -1,7 +1,8 @@
 # Peaks of the wafer's shear from the ensemble's runs, a file for each spacing, then F_tau and its models: of the finest
 # spacing, the others held against it member by member. The threshold is that of abrasive_free at the same spacing.
 SPACINGS = [f"{spacing:g}" for spacing in load_case("abrasives").data["ensemble"]["spacings"][LEVEL]]
-TARGETS.append(OUT / "abrasives.md")
+SHOWN = next(run for run in RUNS["abrasives"] if run.variant.name == "shown" and run.finest)
+TARGETS += [OUT / "abrasives.md", OUT / "movies/abrasives.gif"]
 
 
 rule abrasive_peaks:
@@ -30,3 +31,13 @@ rule abrasive_report:
     shell:
         "cp {input.finest} {output.csv} && {PYTHON} -m verification.abrasive_report --csv {output.csv}"
         " {params.others} --json {output.json} >{output.tables}"
+
+
+rule abrasive_movie:
+    input:
+        OUT / f"runs/abrasives/default/shown/{SHOWN.spacing:g}/run.json",
+    output:
+        OUT / "movies/abrasives.gif",
+    localrule: True
+    shell:
+        "{PYTHON} -m verification.movie $(dirname {input}) --field speed --rate 8 --out {output}"
