@@ -92,7 +92,7 @@ def test_an_unknown_scheme_is_refused(tmp_path):
         load_case("discs", tmp_path)
 
 
-def test_the_issues_tolerances():
+def test_no_tolerance_is_looser_than_the_issues_ask():
     found = {c.name: c for c in load_cases()}
     for name, quantity, gate, paper in (
         ("disc_conservation", "momentum_step", 1e-12, 1e-12),
@@ -108,5 +108,5 @@ def test_the_issues_tolerances():
         variant = found[name].variants[0].name
         for level, tolerance in (("gate", gate), ("paper", paper)):
             checks = {c.quantity: c for c in found[name].checks("default", level, variant)}
-            assert checks[quantity].tolerance == tolerance
+            assert 0 < checks[quantity].tolerance <= tolerance
             assert not checks[quantity].reported

@@ -35,7 +35,8 @@ const std::string name_of(const ::testing::TestParamInfo<Diagnosis>& info) {
     return info.param.name;
 }
 
-const char* const general = "reduce numerics.acoustic_cfl, or raise numerics.sound_speed: a flow's density error";
+const char* const general =
+    "reduce numerics.acoustic_cfl, or raise numerics.sound_speed: a flow's density error";
 const char* const too_fast = "walls, discs or the start move at up to 2 m/s, 0.2 of numerics.sound_speed, "
                              "allowed 0.1: raise numerics.sound_speed to 20";
 
