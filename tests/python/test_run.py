@@ -267,8 +267,8 @@ def test_tolerances_are_those_of_the_issue():
     [
         ('kind = "exact"', 'kind = "regression"', "kind regression"),
         ('metric = "relative_peak"', 'metric = "max"', "metric max"),
-        ("gate = 0.005, ", "", "no tolerance for default, gate"),
-        ("gate = 0.005", "gate = nan", "no tolerance"),
+        ("gate = 0.002, ", "", "no tolerance for default, gate"),
+        ("gate = 0.002", "gate = nan", "no tolerance"),
         ("gate = [1e-6, 7.142857e-7, 5e-7]", "gate = [1e-6, 5e-7]", "three spacings"),
         ("gate = [1e-6, 7.142857e-7, 5e-7]", "gate = [5e-7, 7e-7, 1e-6]", "coarse to fine"),
         ('field = "velocity"', 'feild = "velocity"', "unknown"),
