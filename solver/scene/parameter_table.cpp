@@ -98,7 +98,8 @@ const std::vector<Parameter> parameter_table{
      Default::by_scheme<std::string>("float", "double"), one_of({"float", "double"}),
      "precision of the sums over pairs; positions, velocities and densities are double always"},
     {"numerics", "", "sound_speed", member(&Numerics::sound_speed), "m/s", required, positive(),
-     "artificial; 10 times the largest flow speed keeps density within 1 %"},
+     "artificial; the density stays within 1 % at 10 times the largest flow speed and, in films, at 10 times "
+     "sqrt(largest pressure / density)"},
     {"numerics", "", "background_pressure_ratio", member(&Numerics::background_pressure_ratio), "",
      Default::by_scheme(1.2, 1.0), between(0, 10),
      "background pressure over density * sound_speed^2, at most 0.85 / (sound_speed * time step / "

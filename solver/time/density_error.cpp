@@ -40,6 +40,21 @@ struct Side {
     Vector normal;   // unit, into the fluid
 };
 
+// Of the series of a result, the one with the largest density error.
+struct Sample {
+    double error;       // share of the density
+    double time;        // s
+    double fluid_speed; // m/s
+};
+
+Sample worst_sample(const std::filesystem::path& result) {
+    const Hdf5Reader reader(result);
+    const std::vector<double> errors = reader.table("/series/largest_density_error").values;
+    const auto index = static_cast<std::size_t>(std::ranges::max_element(errors) - errors.begin());
+    return {errors[index], reader.table("/series/time").values[index],
+            reader.table("/series/largest_speed").values[index]};
+}
+
 } // namespace
 
 std::string density_advice(const Scene& scene, const DensityFault& fault) {
@@ -91,23 +106,32 @@ double gap_around(const Particles& particles, const Region& region, const Vector
                                                     : std::numeric_limits<double>::infinity();
 }
 
-std::string density_warning(const std::filesystem::path& result, const Scene& scene, const Region& region,
-                            double time_step) {
-    const Hdf5Reader reader(result);
-    const std::vector<double> errors = reader.table("/series/largest_density_error").values;
-    const auto worst = std::ranges::max_element(errors);
-    if (!(*worst > largest_trusted_density_error)) {
+std::string density_note(const std::filesystem::path& result, const Scene& scene) {
+    constexpr double aim = 0.01; // what numerics.sound_speed is meant for
+    const Sample worst = worst_sample(result);
+    if (!(worst.error > aim) || worst.error > largest_trusted_density_error) {
         return {};
     }
-    const auto sample = static_cast<std::size_t>(worst - errors.begin());
+    return fmt::format(
+        "density up to {:.2g} % off, at {:.4g} s; numerics.sound_speed of about {:.3g} keeps that of "
+        "a steady flow within {:g} %\n",
+        100 * worst.error, worst.time, scene.numerics.sound_speed * std::sqrt(worst.error / aim), 100 * aim);
+}
+
+std::string density_warning(const std::filesystem::path& result, const Scene& scene, const Region& region,
+                            double time_step) {
+    const Sample worst = worst_sample(result);
+    if (!(worst.error > largest_trusted_density_error)) {
+        return {};
+    }
     DensityFault fault;
-    fault.time = reader.table("/series/time").values[sample];
-    fault.fluid_speed = reader.table("/series/largest_speed").values[sample];
+    fault.time = worst.time;
+    fault.fluid_speed = worst.fluid_speed;
     fault.jump = largest_start_jump(scene, region.walls());
     return fmt::format(
         "{}: the density was up to {:.3g} % off, at step {}, time {:.6g} s; allowed {:g} %: do not "
         "trust pressures and forces of around then; {}",
-        printable_path(result), 100 * *worst, std::lround(fault.time / time_step), fault.time,
+        printable_path(result), 100 * worst.error, std::lround(fault.time / time_step), fault.time,
         100 * largest_trusted_density_error, density_advice(scene, fault));
 }
 

@@ -30,6 +30,10 @@ inline constexpr double largest_trusted_density_error = 0.05;
 // not face each other.
 [[nodiscard]] double gap_around(const Particles& particles, const Region& region, const Vector& place);
 
+// One line for the summary of a run when the largest sample of /series/largest_density_error in a result is
+// above the 1 % that a sound speed is chosen for, and not yet worth a warning; else empty. Throws ReadError.
+[[nodiscard]] std::string density_note(const std::filesystem::path& result, const Scene& scene);
+
 // One line when the largest sample of /series/largest_density_error in a result is more than
 // largest_trusted_density_error, else empty. The time step (s) is the run's. Throws ReadError.
 [[nodiscard]] std::string density_warning(const std::filesystem::path& result, const Scene& scene,

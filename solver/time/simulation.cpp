@@ -131,6 +131,7 @@ class Run {
         checkpoints_.remove();
         if (!options_.quiet) {
             print_summary(summary, particles_, clock_);
+            std::cout << density_note(summary.result, scene_);
         }
         if (const std::string text = density_warning(summary.result, scene_, region_, time_step_);
             !text.empty()) {

@@ -119,8 +119,8 @@ TEST(GapAround, IsInfiniteInACornerAndWithoutSolids) {
     EXPECT_TRUE(std::isinf(gap_around({}, Region(doubly_periodic(10)), {0.1, 0.3})));
 }
 
-// The samples at steps 0, 5 and 10 of 0.01 s.
-std::string warning_for(const std::vector<double>& errors) {
+// What is said of a result with samples at steps 0, 5 and 10 of 0.01 s.
+template <class Say> std::string said_of(const std::vector<double>& errors, Say&& say) {
     const OwnFolder folder;
     const Scene scene = flat_channel(12, 1);
     ResultFile file(folder.path(), scene, "test", true);
@@ -129,7 +129,26 @@ std::string warning_for(const std::vector<double>& errors) {
         file.add_sample("largest_speed", "m/s", 1.0 + static_cast<double>(k));
         file.add_sample("largest_density_error", "1", errors[k]);
     }
-    return density_warning(file.finish(), scene, Region(scene), 0.01);
+    return say(file.finish(), scene);
+}
+
+std::string warning_for(const std::vector<double>& errors) {
+    return said_of(errors, [](const std::filesystem::path& result, const Scene& scene) {
+        return density_warning(result, scene, Region(scene), 0.01);
+    });
+}
+
+std::string note_for(const std::vector<double>& errors) {
+    return said_of(errors, density_note);
+}
+
+TEST(DensityNote, TellsTheSoundSpeedForOnePercent) {
+    EXPECT_EQ(note_for({0, 0.01, 0.0099}), "");
+    const std::string note = note_for({0, 0.04, 0.03});
+    for (const char* part : {"up to 4 % off", "at 0.05 s", "sound_speed of about 20 "}) {
+        EXPECT_NE(note.find(part), std::string::npos) << part << "\nis not in\n" << note;
+    }
+    EXPECT_EQ(note_for({0, 0.051, 0.01}), "") << "there is a warning for that";
 }
 
 TEST(DensityWarning, SaysHowMuchWhenAndWhatToDo) {
