@@ -111,10 +111,10 @@ TEST(GapAround, IsBetweenTheTwoNearestSolidsThatFaceEachOther) {
 
 TEST(GapAround, IsInfiniteInACornerAndWithoutSolids) {
     Scene scene = core_scene({0, 0}, {1, 1}, {false, false}, 0.1);
-    scene.walls = {{"bottom", LineShape{{0, 0}, {1, 0}}, FluidSide::above, {}},
-                   {"right", LineShape{{1, 0}, {1, 1}}, FluidSide::left, {}},
-                   {"top", LineShape{{1, 1}, {0, 1}}, FluidSide::below, {}},
-                   {"left", LineShape{{0, 1}, {0, 0}}, FluidSide::right, {}}};
+    scene.walls = {{"bottom", LineShape{{0, 0}, {1, 0}}, FluidSide::above, Vector::Zero()},
+                   {"right", LineShape{{1, 0}, {1, 1}}, FluidSide::left, Vector::Zero()},
+                   {"top", LineShape{{1, 1}, {0, 1}}, FluidSide::below, Vector::Zero()},
+                   {"left", LineShape{{0, 1}, {0, 0}}, FluidSide::right, Vector::Zero()}};
     EXPECT_TRUE(std::isinf(gap_around({}, Region(scene), {0.1, 0.2})));
     EXPECT_TRUE(std::isinf(gap_around({}, Region(doubly_periodic(10)), {0.1, 0.3})));
 }
