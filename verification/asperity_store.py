@@ -15,6 +15,7 @@ from pathlib import Path
 from reference import Reference, ReferenceError
 from reference import load as load_reference
 from verification.asperity import CASE, REFERENCE, Point, exact
+from verification.bench.files import write_whole
 from verification.case import ROOT, CaseError, load_case
 from verification.compare import DataError
 
@@ -40,9 +41,7 @@ def all_points(load: Callable[..., Reference] = load_reference) -> list[Point]:
 def write(path: Path, points: Sequence[Point]) -> None:
     """Whole or not at all."""
     rows = [",".join(HEAD), *(f"{p.width:.6g},{p.gap:.6g},{p.pressure:.6g}" for p in points)]
-    part = path.with_suffix(".part")
-    part.write_text(COMMENT + "\n".join(rows) + "\n")
-    part.replace(path)
+    write_whole(path, COMMENT + "\n".join(rows) + "\n")
 
 
 def read(path: Path = STORED) -> list[Point]:

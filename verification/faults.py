@@ -25,6 +25,7 @@ from typing import Any
 from verification import run
 from verification.bench.files import write_whole
 from verification.case import ROOT
+from verification.page import Table
 
 REPOSITORY = ROOT.parent
 SOURCES = ("CMakeLists.txt", "solver", "tests/solver", "tests/fuzz", "benchmarks", "cmake")
@@ -163,20 +164,16 @@ def detect(fault: Fault, solver: Path, out: Path, make: Callable[[Fault, Path], 
 def write_page(page: Path, rows: Sequence[tuple[Fault, str, str]]) -> None:
     """The table of the faults with verdict and what was said of them, into the page whole."""
     caught = sum(verdict == "DETECTED" for _, verdict, _ in rows)
-    lines = [
-        "# Planted by hand",
-        "",
+    said = (
         f"**{caught} of {len(rows)} caught**, {date.today()}. Made by `make faults` from "
-        "[faults.toml](faults.toml): with each fault in, the checks named there have to fail.",
-        "",
-        "| fault | in | case | verdict | its checks |",
-        "| --- | --- | --- | --- | --- |",
-    ]
+        "[faults.toml](faults.toml): with each fault in, the checks named there have to fail."
+    )
+    lines = []
     for fault, verdict, text in rows:
-        place = fault.file or "the scene"
-        said = re.sub(r"; its state is in \S+", "", text).replace("|", "/")  # a path of this machine
-        lines.append(f"| {fault.name} | {place} | {fault.case} | {verdict} | {said} |")
-    write_whole(page, "\n".join(lines) + "\n")
+        text = re.sub(r"; its state is in \S+", "", text).replace("|", "/")  # a path of this machine
+        lines.append(("", (fault.name, fault.file or "the scene", fault.case, verdict, text)))
+    table = Table(("fault", "in", "case", "verdict", "its checks"), lines)
+    write_whole(page, f"# Planted by hand\n\n{said}\n\n{table.markdown()}")
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -28,6 +28,7 @@ from verification.case import ROOT, Case, CaseError, Variant, load_case
 from verification.compare import Array, DataError
 from verification.execute import Run, execute
 from verification.markers import replace_between
+from verification.page import Table
 from verification.run import REPOSITORY, References
 
 PAGE = ROOT / "accuracy.md"
@@ -72,6 +73,11 @@ class Cloud:
     period: Array
     spacing: float
 
+    def wrapped(self, places: Array) -> Array:
+        """Places (n, 2) in m, those beyond a periodic side brought back."""
+        periodic = self.period > 0
+        return np.where(periodic, places % np.where(periodic, self.period, 1.0), places)
+
 
 @dataclass(frozen=True)
 class Fields:
@@ -80,7 +86,7 @@ class Fields:
     velocity: Array
     pressure: Array
     exact: Mapping[str, Array]  # by SUMS: (n, 2) or (n, 1)
-    strain: float  # root mean square of the velocity's gradient, 1/s
+    gradient: Array  # (n, 4) of the velocity, 1/s
 
 
 def kernel_slope(squared: Array) -> Array:
@@ -97,7 +103,7 @@ def sums(cloud: Cloud, velocity: Array, pressure: Array) -> dict[str, Array]:
     they stand for; and as "moments" (n, 3) -sum V F (x x, y y, x y), which are 1, 1, 0 in a continuum.
     """
     h, volume = cloud.spacing, cloud.spacing**2  # the default smoothing_ratio is 1
-    inside = cloud.position % np.where(cloud.period > 0, cloud.period, np.inf)
+    inside = cloud.wrapped(cloud.position)
     i, j = cKDTree(inside, boxsize=cloud.period).query_pairs(SUPPORT * h, output_type="ndarray").T
     i, j = np.concatenate([i, j]), np.concatenate([j, i])
     apart = inside[i] - inside[j]
@@ -121,17 +127,11 @@ def sums(cloud: Cloud, velocity: Array, pressure: Array) -> dict[str, Array]:
 
 
 def exact_fields(reference: Reference, cloud: Cloud, step: float) -> Fields:
-    """Derivatives by central differences of fourth order; NaN where a difference reaches out of the fluid."""
-    x, y = (cloud.position % np.where(cloud.period > 0, cloud.period, np.inf)).T
+    """Derivatives by central differences of fourth order; worthless where one leaves the fluid."""
 
     def at(shift_x: float, shift_y: float) -> Array:
-        places = [
-            axis % period if period > 0 else axis
-            for axis, period in zip((x + shift_x, y + shift_y), cloud.period, strict=True)
-        ]
-        return np.column_stack(
-            [reference.velocity(*places, cloud.time), reference.pressure(*places, cloud.time)]
-        )
+        x, y = cloud.wrapped(cloud.position + [shift_x, shift_y]).T
+        return np.column_stack([reference.velocity(x, y, cloud.time), reference.pressure(x, y, cloud.time)])
 
     here = at(0.0, 0.0)
     first, second = [], []
@@ -142,10 +142,10 @@ def exact_fields(reference: Reference, cloud: Cloud, step: float) -> Fields:
     exact = {
         SUMS[0]: np.column_stack([first[0][:, 2], first[1][:, 2]]),
         SUMS[1]: (second[0] + second[1])[:, :2],
-        SUMS[2]: np.zeros((len(x), 1)),
+        SUMS[2]: np.zeros((len(here), 1)),
     }
     gradient = np.concatenate([first[0][:, :2], first[1][:, :2]], axis=1)
-    return Fields(here[:, :2], here[:, 2], exact, float(np.sqrt(np.nanmean((gradient**2).sum(axis=1)))))
+    return Fields(here[:, :2], here[:, 2], exact, gradient)
 
 
 def away_from_walls(cloud: Cloud, step: float) -> Array:
@@ -179,7 +179,7 @@ def errors(cloud: Cloud, reference: Reference, flow: Flow) -> dict[str, tuple[fl
     table = {}
     for name in SUMS:
         off = (found[name] - fields.exact[name])[counts]
-        scale = root_mean_square(fields.exact[name][counts]) or fields.strain
+        scale = root_mean_square(fields.exact[name][counts]) or root_mean_square(fields.gradient[counts])
         means = cell_means(places, off, flow.cell)
         table[name] = (root_mean_square(off) / scale, root_mean_square(means) / scale)
     off = (found["moments"] - [1.0, 1.0, 0.0])[counts]
@@ -244,9 +244,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     references = References()
     try:
         rows = [row for flow in FLOWS for row in rows_of(flow, references, options)]
-        lines = [f"| {' | '.join(row)} |" for row in (list(HEAD), ["---"] * len(HEAD), *rows)]
-        print("\n".join(lines))
-        replace_between(options.page, "operators", "\n".join(lines))
+        table = Table(HEAD, [("", row) for row in rows]).markdown().strip()
+        print(table)
+        replace_between(options.page, "operators", table)
     except CaseError as error:
         print(f"FAILED: {error}")
         return 1
