@@ -5,10 +5,10 @@
 #include "solver/discs/placement.hpp"
 #include "solver/geometry/geometry_error.hpp"
 #include "solver/geometry/region.hpp"
-#include "solver/geometry/start_jump.hpp"
 #include "solver/output/partial_file.hpp"
 #include "solver/output/result_file.hpp"
 #include "solver/particles/arrangement.hpp"
+#include "solver/particles/start_jump.hpp"
 #include "solver/scene/manual.hpp"
 #include "solver/scene/read_scene.hpp"
 #include "solver/scene/refusal.hpp"
@@ -92,7 +92,6 @@ Scene scene_of(const Arguments& arguments, const std::filesystem::path& checkpoi
     Scene scene = arguments.scene.empty() ? read_checkpoint_scene(checkpoint, overrides, limits)
                                           : read_scene(arguments.scene, overrides, limits);
     std::ranges::for_each(scene.warnings, warn);
-    std::ranges::for_each(start_jump_warnings(scene), warn);
     return scene;
 }
 
@@ -113,6 +112,7 @@ Examined examine(const Scene& scene) {
     Region region(scene);
     std::vector<Disc> discs = make_discs(place_discs(scene, region), scene.fluid);
     static_cast<void>(step_count(scene, region, discs));
+    std::ranges::for_each(start_jump_warnings(scene, region), warn);
     std::ranges::for_each(start_warnings(scene, region), warn);
     return {std::move(region), std::move(discs)};
 }

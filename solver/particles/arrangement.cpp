@@ -6,6 +6,7 @@
 #include "solver/discs/placement.hpp"
 #include "solver/kernels/quintic_spline.hpp"
 #include "solver/loop/interactions.hpp"
+#include "solver/particles/wall_impulse.hpp"
 #include "solver/scene/start_velocity.hpp"
 #include "solver/terms/equation_of_state.hpp"
 
@@ -119,13 +120,24 @@ void balance_body_force(FluidParticles& fluid, const Scene& scene) {
     }
 }
 
-void set_velocity(FluidParticles& fluid, const Scene& scene) {
+// An impulse moves a circular cylinder with twice the fluid's momentum over its mass and the added one.
+void push_discs(std::span<Disc> discs, const Scene& scene, const WallImpulse& impulse) {
+    for (Disc& disc : discs) {
+        if (disc.free()) {
+            const double fluid_mass = scene.fluid.density * disc.area();
+            disc.velocity += 2 * fluid_mass / (disc.mass + fluid_mass) * impulse.velocity(disc.position);
+        }
+    }
+}
+
+void set_velocity(FluidParticles& fluid, const Scene& scene, const WallImpulse& impulse) {
     const Start& start = scene.start;
     const Domain& domain = scene.domain;
     const EquationOfState equation_of_state{scene.fluid.density, scene.numerics.sound_speed};
     const double peak_pressure = scene.fluid.density * start.speed * start.speed / 4;
     for (std::size_t i = 0; i < fluid.size(); ++i) {
-        const Vector velocity = start_velocity(scene, {fluid.x[i], fluid.y[i]});
+        const Vector position(fluid.x[i], fluid.y[i]);
+        const Vector velocity = start_velocity(scene, position) + impulse.velocity(position);
         fluid.velocity_x[i] = velocity.x();
         fluid.velocity_y[i] = velocity.y();
         if (start.velocity == InitialVelocity::taylor_green) {
@@ -168,6 +180,8 @@ int dummy_layers(const Numerics& numerics) {
 Particles arrange_particles(const Scene& scene, const Region& region) {
     Particles particles;
     particles.discs = make_discs(place_discs(scene, region), scene.fluid);
+    const WallImpulse impulse(scene, region, particles.discs);
+    push_discs(particles.discs, scene, impulse);
     const double spacing = scene.numerics.particle_spacing;
     const std::vector<Vector> points = fluid_points(scene, region, particles.discs);
     FluidParticles& fluid = particles.fluid;
@@ -187,7 +201,7 @@ Particles arrange_particles(const Scene& scene, const Region& region) {
         relax(particles, scene);
     }
     balance_body_force(fluid, scene);
-    set_velocity(fluid, scene);
+    set_velocity(fluid, scene, impulse);
     return particles;
 }
 

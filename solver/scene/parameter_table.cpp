@@ -163,6 +163,10 @@ const std::vector<Parameter> parameter_table{
      one_of({"rest", "shear", "taylor_green"}), "of the fluid"},
     {"start", "", "speed", member(&Start::speed), "m/s", 0.0, anything(),
      "of the shear at the domain's top, or Taylor-Green's peak; 0 at rest, and only then"},
+    {"start", "", "impulse", member(&Start::impulse), "", Default::by_scheme(true, false), anything(),
+     "rough walls that start at once push the fluid as if it were incompressible: a potential flow is added "
+     "to "
+     "its velocity; false: sound has to set it in motion"},
 
     {"walls", "", "name", member(&WallScene::name), "", required, identifier(), "unique"},
     {"walls", "", "shape", member(&WallScene::shape), "", required,

@@ -101,7 +101,8 @@ struct Start {
     double jitter = 0.2; // largest displacement per axis / particle spacing, for `jittered`
     std::uint64_t seed = 1;
     InitialVelocity velocity = InitialVelocity::rest;
-    double speed = 0; // m/s: of the shear at the domain's top, or Taylor-Green's peak
+    double speed = 0;    // m/s: of the shear at the domain's top, or Taylor-Green's peak
+    bool impulse = true; // what walls that start at once across their surface do to the fluid: WallImpulse
 };
 
 // Shapes. All but Line are graphs y(x) over the whole width of the domain.

@@ -65,11 +65,10 @@ std::string density_advice(const Scene& scene, const DensityFault& fault) {
         return speed_advice("walls, discs or the start move at", driven, sound_speed);
     }
     const bool sound_still_crosses = fault.time * sound_speed < scene.domain.size().maxCoeff();
-    if (sound_still_crosses && fault.jump.speed > largest_trusted_jump * sound_speed) {
-        return fmt::format("the wall '{}' starts at once at {:.4g} m/s across its surface, {:.3g} of "
-                           "numerics.sound_speed, allowed {}: {}",
-                           fault.jump.wall, fault.jump.speed, fault.jump.speed / sound_speed,
-                           largest_trusted_jump, start_jump_advice(scene, fault.jump));
+    if (sound_still_crosses && fault.jump.speed > fault.jump.trusted_share() * sound_speed) {
+        return fmt::format("{}, {:.3g} of numerics.sound_speed, allowed {}: {}", fault.jump.describe(),
+                           fault.jump.speed / sound_speed, fault.jump.trusted_share(),
+                           start_jump_advice(scene, fault.jump));
     }
     if (numerics.background_pressure_ratio == 0) {
         return "particles clump where nothing spaces them: set numerics.background_pressure_ratio to 1, "
@@ -127,7 +126,7 @@ std::string density_warning(const std::filesystem::path& result, const Scene& sc
     DensityFault fault;
     fault.time = worst.time;
     fault.fluid_speed = worst.fluid_speed;
-    fault.jump = largest_start_jump(scene, region.walls());
+    fault.jump = start_jump(scene, region);
     return fmt::format(
         "{}: the density was up to {:.3g} % off, at step {}, time {:.6g} s; allowed {:g} %: do not "
         "trust pressures and forces of around then; {}",

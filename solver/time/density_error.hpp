@@ -1,8 +1,8 @@
 #pragma once
 // What to do when the density of the fluid, which should not change, does.
 #include "solver/geometry/region.hpp"
-#include "solver/geometry/start_jump.hpp"
 #include "solver/particles/particles.hpp"
+#include "solver/particles/start_jump.hpp"
 
 #include <filesystem>
 #include <limits>

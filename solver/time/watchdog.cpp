@@ -71,7 +71,7 @@ double fastest(const FluidParticles& fluid) {
     const FluidParticles& fluid = particles.fluid;
     const DensityFault fault{particles.time, fastest(fluid),
                              gap_around(particles, region, {fluid.x[i], fluid.y[i]}),
-                             largest_start_jump(scene, region.walls())};
+                             start_jump(scene, region)};
     stop(particles, i, step, fmt::format("its density is {:.6g} kg/m3, more than 10 % off", fluid.density[i]),
          density_advice(scene, fault));
 }

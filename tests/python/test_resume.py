@@ -136,7 +136,7 @@ def test_resumed_run_warns_of_the_density_before_its_checkpoint(tmp_path: Path) 
         "velocity = [1.0, 0.0]": "",
         "crest = 0.0": "velocity = [1.0, 0.0]",
         "spacing = 2.5e-7": "spacing = 1e-6",
-        "end_time = 9e-5": "end_time = 6e-4\nseries_samples = 8001",
+        "end_time = 9e-5": "end_time = 6e-4\nseries_samples = 8001\n[start]\nimpulse = false",
     }
     text = (ROOT / "verification/rough_channel/scene.toml").read_text()
     for old, new in jump.items():
