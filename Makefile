@@ -85,7 +85,7 @@ bands: build ## Hold the bands of `slurry converge` against flows with a known t
 ablation: build ## Errors with one key changed at a time: the table of verification/accuracy.md
 	@$(PYTHON) -m verification.ablation
 
-operators: build ## Errors of the sums over pairs on the exact field: another table of verification/accuracy.md
+operators: build ## Errors of the sums over pairs on the exact field: other tables of verification/accuracy.md
 	@$(PYTHON) -m verification.operators
 
 counts: setup ## Instructions of a step (valgrind) against verification/counts.json; the exit status is the verdict

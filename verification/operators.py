@@ -4,17 +4,15 @@
 velocity and pressure at their particles, and holds the sums over pairs against the reference's derivatives.
 That tells what a sum misses from what the flow makes of it. Three ways: at each particle; as means over cells
 of fixed size, because noise of no mean moves particles and not the fluid; and over particles on a lattice,
-where only the truncation is left. Only particles whose neighbours are all fluid count. The table goes between
-the markers of accuracy.md. Exit status: 0; 1 when a run failed; 2 when it cannot start.
-
-The sums are those of solver/terms: the pressure gradient with (p_i + p_j), Eq. 2.15 with constant volumes;
-the viscous one of Eq. 2.15; the divergence with the gradient correction of Eq. 2.21.
+where only the truncation is left. Only particles whose neighbours are all fluid count. The tables go between
+the markers of accuracy.md: the solver's sums, other forms of them (verification/operator_forms.py), and what
+is continued behind a wall (verification/wall_continuation.py). Exit status: 0; 1 when a run failed; 2 when it
+cannot start.
 """
 
 from __future__ import annotations
 
 import argparse
-import re
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -24,17 +22,28 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from reference import Reference
+from verification import wall_continuation
 from verification.case import ROOT, Case, CaseError, Variant, load_case
 from verification.compare import Array, DataError
 from verification.execute import Run, execute
 from verification.markers import replace_between
+from verification.operator_forms import (
+    DIVERGENCE,
+    FORMS,
+    GRADIENT,
+    MOMENTS,
+    OF_NEIGHBOURS,
+    SOLVER,
+    SUPPORT,
+    VISCOUS,
+    Cloud,
+    sums,
+)
 from verification.page import Table
 from verification.run import REPOSITORY, References
+from verification.wall_continuation import Continued, continuations
 
 PAGE = ROOT / "accuracy.md"
-KERNEL = REPOSITORY / "solver" / "kernels" / "fitted_quintic.hpp"  # the default scheme's
-SUPPORT = 3.0  # smoothing lengths
-SUMS = ("pressure gradient", "viscous force", "divergence")
 HEAD = (
     "flow",
     "spacing (m)",
@@ -48,35 +57,22 @@ HEAD = (
 
 @dataclass(frozen=True)
 class Flow:
-    """`step`: of the differences that stand for the reference's derivatives, m; `cell`: of the means, m."""
+    """`step`: of the differences that stand for the reference's derivatives, m; `cell`: of the means, m;
+    `wall`: where an artificial one is laid through the fluid, y in m.
+    """
 
     case: str
     variant: str
     spacings: tuple[float, ...]
     step: float
     cell: float
+    wall: float | None = None
 
 
 FLOWS = (
     Flow("taylor_green", "re_100", (0.04, 0.02, 0.01), 0.01, 0.1),
-    Flow("rough_channel", "top_wall_moves", (5e-7, 2.5e-7, 1.25e-7), 2e-7, 2e-6),
+    Flow("rough_channel", "top_wall_moves", (5e-7, 2.5e-7, 1.25e-7), 2e-7, 2e-6, 1.25e-5),
 )
-
-
-@dataclass(frozen=True)
-class Cloud:
-    """Fluid particles (n, 2) and those of walls (m, 2) in m at a time in s; `period` (2,) in m, 0: none."""
-
-    position: Array
-    wall: Array
-    time: float
-    period: Array
-    spacing: float
-
-    def wrapped(self, places: Array) -> Array:
-        """Places (n, 2) in m, those beyond a periodic side brought back."""
-        periodic = self.period > 0
-        return np.where(periodic, places % np.where(periodic, self.period, 1.0), places)
 
 
 @dataclass(frozen=True)
@@ -85,45 +81,22 @@ class Fields:
 
     velocity: Array
     pressure: Array
-    exact: Mapping[str, Array]  # by SUMS: (n, 2) or (n, 1)
+    exact: Mapping[str, Array]  # by sum: (n, 2) or (n, 1)
     gradient: Array  # (n, 4) of the velocity, 1/s
 
 
-def kernel_slope(squared: Array) -> Array:
-    """h^4 (dW/dr) / r of the default kernel from (r / h)^2, with the solver's own coefficients."""
-    found = re.search(r"coefficients\{(.*?)\}", KERNEL.read_text(), re.DOTALL)
-    if not found:
-        raise DataError(f"{KERNEL.name} names no coefficients")
-    left = np.maximum(0.0, 1.0 - squared / SUPPORT**2)
-    return -(left**5) * np.polynomial.polynomial.polyval(left, [float(c) for c in found[1].split(",")])
-
-
-def sums(cloud: Cloud, velocity: Array, pressure: Array) -> dict[str, Array]:
-    """The sums of the particles of a cloud, by SUMS: (n, 2), (n, 2), (n, 1), in units of the derivatives that
-    they stand for; and as "moments" (n, 3) -sum V F (x x, y y, x y), which are 1, 1, 0 in a continuum.
+@dataclass(frozen=True)
+class Measured:
+    """A run's errors: by sum and form at the particles and of the means over cells; the same on a lattice;
+    by field and form behind the artificial wall.
     """
-    h, volume = cloud.spacing, cloud.spacing**2  # the default smoothing_ratio is 1
-    inside = cloud.wrapped(cloud.position)
-    i, j = cKDTree(inside, boxsize=cloud.period).query_pairs(SUPPORT * h, output_type="ndarray").T
-    i, j = np.concatenate([i, j]), np.concatenate([j, i])
-    apart = inside[i] - inside[j]
-    apart -= cloud.period * np.round(apart / np.where(cloud.period > 0, cloud.period, np.inf))
-    weight = volume * kernel_slope((apart**2).sum(axis=1) / h**2) / h**4
-    change = velocity[i] - velocity[j]
 
-    def total(terms: Array) -> Array:
-        return np.column_stack([np.bincount(i, term, len(inside)) for term in terms.T])
-
-    moments = -total(weight[:, None] * np.column_stack([apart**2, apart[:, 0] * apart[:, 1]]))
-    slopes = total(weight[:, None] * np.column_stack([change * apart, change * apart[:, ::-1]]))
-    xx, yy, xy = moments.T
-    compression = yy * slopes[:, 0] + xx * slopes[:, 1] - xy * (slopes[:, 2] + slopes[:, 3])
-    return {
-        SUMS[0]: total((weight * (pressure[i] + pressure[j]))[:, None] * apart),
-        SUMS[1]: total(2 * weight[:, None] * change),
-        SUMS[2]: -(compression / (xx * yy - xy**2))[:, None],
-        "moments": moments,
-    }
+    flow: str
+    spacing: float  # m
+    particles: int
+    moved: Mapping[tuple[str, str], tuple[float, float]]
+    still: Mapping[tuple[str, str], tuple[float, float]]
+    behind: Mapping[tuple[str, str], Continued]
 
 
 def exact_fields(reference: Reference, cloud: Cloud, step: float) -> Fields:
@@ -140,20 +113,20 @@ def exact_fields(reference: Reference, cloud: Cloud, step: float) -> Fields:
         first.append((far_below - 8 * below + 8 * above - far_above) / (12 * step))
         second.append((-far_below + 16 * below - 30 * here + 16 * above - far_above) / (12 * step**2))
     exact = {
-        SUMS[0]: np.column_stack([first[0][:, 2], first[1][:, 2]]),
-        SUMS[1]: (second[0] + second[1])[:, :2],
-        SUMS[2]: np.zeros((len(here), 1)),
+        GRADIENT: np.column_stack([first[0][:, 2], first[1][:, 2]]),
+        VISCOUS: (second[0] + second[1])[:, :2],
+        DIVERGENCE: np.zeros((len(here), 1)),
     }
     gradient = np.concatenate([first[0][:, :2], first[1][:, :2]], axis=1)
     return Fields(here[:, :2], here[:, 2], exact, gradient)
 
 
-def away_from_walls(cloud: Cloud, step: float) -> Array:
-    """Which particles (n,) have only fluid within a kernel's support and within the differences' reach."""
+def away_from_walls(cloud: Cloud, step: float, supports: int = 1) -> Array:
+    """Which particles (n,) have only fluid within so many kernel supports and the differences' reach."""
     if len(cloud.wall) == 0:
         return np.full(len(cloud.position), True)
     distance, _ = cKDTree(cloud.wall).query(cloud.position)
-    return distance > max(SUPPORT, 2 * step / cloud.spacing + 0.5) * cloud.spacing
+    return distance > max(supports * SUPPORT, 2 * step / cloud.spacing + 0.5) * cloud.spacing
 
 
 def root_mean_square(values: Array) -> float:
@@ -161,29 +134,28 @@ def root_mean_square(values: Array) -> float:
 
 
 def cell_means(places: Array, values: Array, cell: float) -> Array:
-    """Means (cells, k) of values (n, k) over square cells of that size in m."""
+    """For each of the values (n, k) the mean over the square cell of that size in m that it lies in, so that
+    cells with few particles, beside walls, count for little.
+    """
     _, index, count = np.unique(np.floor(places / cell), axis=0, return_inverse=True, return_counts=True)
     index = index.ravel()
-    return np.column_stack([np.bincount(index, column) / count for column in values.T])
+    return np.column_stack([np.bincount(index, column) / count for column in values.T])[index]
 
 
-def errors(cloud: Cloud, reference: Reference, flow: Flow) -> dict[str, tuple[float, float]]:
-    """For each of SUMS the error at the particles and that of the means over cells, over the root mean square
-    of what it stands for; of the divergence over that of the velocity's gradient. "moments": the root mean
-    squares of what they are off by.
+def errors(cloud: Cloud, reference: Reference, flow: Flow) -> dict[tuple[str, str], tuple[float, float]]:
+    """For each sum and form the error at the particles and that of the means over cells, over the root mean
+    square of what it stands for; of the divergence over that of the velocity's gradient; of the moments,
+    which are numbers, their own.
     """
     fields = exact_fields(reference, cloud, flow.step)
-    found = sums(cloud, fields.velocity, fields.pressure)
-    counts = away_from_walls(cloud, flow.step)
-    places = cloud.position[counts]
+    exact = {**fields.exact, MOMENTS: np.array([[1.0, 1.0, 0.0]])}
+    of_the_scale = {**fields.exact, DIVERGENCE: fields.gradient, MOMENTS: np.ones((len(cloud.position), 1))}
     table = {}
-    for name in SUMS:
-        off = (found[name] - fields.exact[name])[counts]
-        scale = root_mean_square(fields.exact[name][counts]) or root_mean_square(fields.gradient[counts])
-        means = cell_means(places, off, flow.cell)
-        table[name] = (root_mean_square(off) / scale, root_mean_square(means) / scale)
-    off = (found["moments"] - [1.0, 1.0, 0.0])[counts]
-    table["moments"] = (root_mean_square(off), root_mean_square(cell_means(places, off, flow.cell)))
+    for (name, form), found in sums(cloud, fields.velocity, fields.pressure).items():
+        counts = away_from_walls(cloud, flow.step, 2 if form == OF_NEIGHBOURS else 1)
+        off, scale = (found - exact[name])[counts], root_mean_square(of_the_scale[name][counts])
+        means = cell_means(cloud.position[counts], off, flow.cell)
+        table[name, form] = (root_mean_square(off) / scale, root_mean_square(means) / scale)
     return table
 
 
@@ -207,29 +179,58 @@ def on_a_lattice(case: Case, variant: Variant) -> Variant:
     return Variant(f"{variant.name}_lattice", {**variant.set, **changes})
 
 
-def rows_of(flow: Flow, references: References, options: argparse.Namespace) -> list[list[str]]:
-    """The table's rows of a flow, one for each spacing and sum."""
+def measure(flow: Flow, references: References, options: argparse.Namespace) -> list[Measured]:
+    """Runs a flow at each of its spacings."""
     case = load_case(flow.case)
     variant = next(v for v in case.variants if v.name == flow.variant)
-    reference, rows = references.of(case, variant), []
+    reference, found = references.of(case, variant), []
     for spacing in flow.spacings:
         cloud, lattice = (
             cloud_of(Run(case, "default", arranged, spacing, finest=False), options)
             for arranged in (variant, on_a_lattice(case, variant))
         )
         moved, still = errors(cloud, reference, flow), errors(lattice, reference, flow)
-        for name in (*SUMS, "moments"):
-            cells = [100 * value for value in (*moved[name], still[name][0])]
-            rows.append(
-                [
-                    f"{case.name}, {variant.name}".replace("_", " "),
-                    f"{spacing:g}",
-                    str(len(cloud.position)),
-                    name,
-                    *[f"{value:.2g}" for value in cells],
-                ]
-            )
-    return rows
+        behind = continuations(cloud, reference, flow.wall, flow.step) if flow.wall else {}
+        label = f"{case.name}, {variant.name}".replace("_", " ")
+        found.append(Measured(label, spacing, len(cloud.position), moved, still, behind))
+    return found
+
+
+def percent(values: Sequence[float]) -> list[str]:
+    return [f"{100 * value:.2g}" for value in values]
+
+
+def sums_table(measured: Sequence[Measured]) -> Table:
+    """The solver's forms: a row for each run and sum."""
+    rows = []
+    for run in measured:
+        for key in SOLVER.items():
+            cells = percent([*run.moved[key], run.still[key][0]])
+            rows.append(("", [run.flow, f"{run.spacing:g}", str(run.particles), key[0], *cells]))
+    return Table(HEAD, rows)
+
+
+def forms_table(measured: Sequence[Measured]) -> Table:
+    """All forms: a row for each, a column for each run."""
+    rows = []
+    for key in [(name, form) for name, forms in FORMS.items() for form in forms]:
+        cells = [" / ".join(percent([*run.moved[key], run.still[key][0]])) for run in measured]
+        rows.append(("", [*key, *cells]))
+    return Table(("sum", "form", *(f"{run.flow}, {run.spacing:g} m" for run in measured)), rows)
+
+
+def walls_table(measured: Sequence[Measured]) -> Table:
+    """What is continued behind a wall: a row for each form, a column for each run that has such a wall."""
+    runs = [run for run in measured if run.behind]
+    rows = []
+    for key in [(field, form) for field, forms in wall_continuation.FORMS.items() for form in forms]:
+        cells = [" / ".join(percent(run.behind[key].error)) for run in runs]
+        noise = " / ".join(f"{value:.2g}" for value in runs[-1].behind[key].noise)
+        rows.append(("", [*key, *cells, noise]))
+    return Table(("field", "form", *(f"{run.flow}, {run.spacing:g} m" for run in runs), "noise"), rows)
+
+
+TABLES = {"operators": sums_table, "forms": forms_table, "walls": walls_table}  # by their markers
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -239,14 +240,15 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--solver", type=Path, default=REPOSITORY / "build" / "slurry")
     parser.add_argument("--out", type=Path, default=REPOSITORY / "build" / "operators")
     parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--page", type=Path, default=PAGE, help="with the markers of the table")
+    parser.add_argument("--page", type=Path, default=PAGE, help="with the markers of the tables")
     options = parser.parse_args(argv)
     references = References()
     try:
-        rows = [row for flow in FLOWS for row in rows_of(flow, references, options)]
-        table = Table(HEAD, [("", row) for row in rows]).markdown().strip()
-        print(table)
-        replace_between(options.page, "operators", table)
+        measured = [run for flow in FLOWS for run in measure(flow, references, options)]
+        for name, table in TABLES.items():
+            text = table(measured).markdown().strip()
+            print(text, end="\n\n")
+            replace_between(options.page, name, text)
     except CaseError as error:
         print(f"FAILED: {error}")
         return 1

@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from verification import operators
-from verification.compare import DataError
-from verification.operators import Cloud, Flow
+from verification import operators, wall_continuation
+from verification.operator_forms import DIVERGENCE, FORMS, GRADIENT, MOMENTS, SOLVER, VISCOUS, Cloud
+from verification.operators import Flow, Measured
+from verification.wall_continuation import Continued
 
 FLOW = Flow("box", "box", (0.02,), step=0.01, cell=0.1)
 
@@ -33,20 +34,6 @@ def box(spacing=0.02, jitter=0.0):
     return Cloud(places, np.empty((0, 2)), 0.0, np.array([1.0, 1.0]), spacing)
 
 
-def test_the_kernel_is_the_solver_s():
-    radii = np.linspace(1e-6, 3, 20001)
-    slope = operators.kernel_slope(radii**2)
-    assert np.pi * -np.trapezoid(slope * radii**3, radii) == pytest.approx(1.0, abs=1e-6)  # as a delta's
-    assert operators.kernel_slope(np.array([9.0, 10.0])).tolist() == [0.0, 0.0]
-
-
-def test_without_coefficients_nothing_is_measured(tmp_path, monkeypatch):
-    monkeypatch.setattr(operators, "KERNEL", tmp_path / "kernel.hpp")
-    operators.KERNEL.write_text("struct FittedQuintic {};")
-    with pytest.raises(DataError, match="coefficients"):
-        operators.kernel_slope(np.array([1.0]))
-
-
 def test_exact_derivatives_are_those_of_the_field():
     cloud = box()
     fields = operators.exact_fields(Vortices(), cloud, 0.01)
@@ -60,18 +47,24 @@ def test_exact_derivatives_are_those_of_the_field():
 
 def test_a_lattice_leaves_the_truncation_alone():
     coarse, fine = (operators.errors(box(spacing), Vortices(), FLOW) for spacing in (0.04, 0.02))
-    for name in operators.SUMS[:2]:
-        assert 3.5 < coarse[name][0] / fine[name][0] < 4.5  # second order
-    assert fine["divergence"][0] < 1e-12
-    assert fine["moments"][0] < 5e-4
+    for key in [(name, form) for name in (GRADIENT, VISCOUS) for form in FORMS[name]]:
+        assert 3.5 < coarse[key][0] / fine[key][0] < 4.5  # second order
+    assert fine[DIVERGENCE, SOLVER[DIVERGENCE]][0] < 1e-12
+    assert fine[MOMENTS, ""][0] < 5e-4
 
 
 def test_disorder_is_seen_and_most_of_it_has_no_mean():
     still, moved = (operators.errors(box(jitter=jitter), Vortices(), FLOW) for jitter in (0.0, 0.1))
-    for name in (*operators.SUMS, "moments"):
-        at_particles, means = moved[name]
-        assert at_particles > 3 * still[name][0]
+    for key in SOLVER.items():
+        at_particles, means = moved[key]
+        assert at_particles > 3 * still[key][0]
         assert means < 0.5 * at_particles
+
+
+def test_a_cell_counts_by_its_particles():
+    places = np.array([[0.1, 0.1], [0.3, 0.4], [0.2, 0.2], [1.5, 0.5]])
+    means = operators.cell_means(places, np.array([[1.0], [2.0], [3.0], [8.0]]), cell=1.0)
+    assert means.ravel().tolist() == [2.0, 2.0, 2.0, 8.0]
 
 
 def test_particles_near_walls_do_not_count():
@@ -80,6 +73,18 @@ def test_particles_near_walls_do_not_count():
     height = cloud.position[:, 1]
     assert not counts[height < 0.04].any()
     assert counts[height > 0.06].all()
+    further = operators.away_from_walls(cloud, 0.01, supports=2)
+    assert not further[height < 0.1].any()
+    assert further[height > 0.12].all()
+
+
+def test_a_form_with_the_neighbours_corrections_is_measured_where_these_are_whole():
+    bottom = np.column_stack([np.arange(0.0, 1.0, 0.02), np.full(50, -0.01)])
+    fence = np.concatenate([bottom, bottom[:, ::-1], 1 - bottom, 1 - bottom[:, ::-1]])
+    enclosed = replace(box(), period=np.zeros(2), wall=fence)
+    form = (GRADIENT, "p_i B_i + p_j B_j")
+    walled, whole = (operators.errors(cloud, Vortices(), FLOW)[form][0] for cloud in (enclosed, box()))
+    assert walled == pytest.approx(whole, rel=0.3)
 
 
 def test_only_periodic_axes_are_wrapped():
@@ -94,29 +99,52 @@ def test_what_lies_beyond_a_wall_does_not_scale_the_divergence():
 
     wall = np.column_stack([np.arange(0.0, 1.0, 0.02), np.full(50, -0.01)])
     cloud = replace(box(jitter=0.1), wall=wall, period=np.array([1.0, 0.0]))
-    torn, sound = (operators.errors(cloud, field, FLOW)["divergence"] for field in (Torn(), Vortices()))
+    key = (DIVERGENCE, SOLVER[DIVERGENCE])
+    torn, sound = (operators.errors(cloud, field, FLOW)[key] for field in (Torn(), Vortices()))
     assert torn == pytest.approx(sound)
 
 
-def test_the_table_goes_into_the_page(tmp_path, monkeypatch):
+def measured(flow="box", walls=False):
+    """A run whose error is 1, 2 and 3 % of everything, behind a wall 4 % at each depth."""
+    keys = [*SOLVER.items(), *((name, form) for name, forms in FORMS.items() for form in forms)]
+    fields = [(field, form) for field, forms in wall_continuation.FORMS.items() for form in forms]
+    behind = dict.fromkeys(fields, Continued((0.04,) * 3, (5.0,) * 3)) if walls else {}
+    return Measured(
+        flow, 0.5, 42, dict.fromkeys(keys, (0.01, 0.02)), dict.fromkeys(keys, (0.03, 0.0)), behind
+    )
+
+
+def test_the_tables_have_all_forms_and_only_flows_with_a_wall_behind_it():
+    runs = [measured(), measured("channel", walls=True)]
+    of_the_solver = operators.sums_table(runs).markdown()
+    assert "| box | 0.5 | 42 | viscous force | 1 | 2 | 3 |" in of_the_solver
+    forms = operators.forms_table(runs).markdown()
+    assert "| sum | form | box, 0.5 m | channel, 0.5 m |" in forms
+    assert forms.count("| 1 / 2 / 3 | 1 / 2 / 3 |") == sum(map(len, FORMS.values()))
+    walls = operators.walls_table(runs).markdown()
+    assert "| field | form | channel, 0.5 m | noise |" in walls
+    assert "| pressure | second order | 4 / 4 / 4 | 5 / 5 / 5 |" in walls
+
+
+def test_the_tables_go_into_the_page(tmp_path, monkeypatch):
     page = tmp_path / "accuracy.md"
-    page.write_text("<!-- operators:begin -->\n<!-- operators:end -->\n")
+    page.write_text("".join(f"<!-- {name}:begin -->\n<!-- {name}:end -->\n" for name in operators.TABLES))
     seen: list[argparse.Namespace] = []
 
-    def rows_of(flow, references, options):
+    def measure(flow, references, options):
         seen.append(options)
-        return [[flow.case, *"123456"]]
+        return [measured(flow.case, walls=True)]
 
-    monkeypatch.setattr(operators, "rows_of", rows_of)
+    monkeypatch.setattr(operators, "measure", measure)
     assert operators.main(["--page", str(page)]) == 0
-    assert "| taylor_green | 1 | 2 | 3 | 4 | 5 | 6 |" in page.read_text()
+    assert "| taylor_green | 0.5 | 42 | divergence | 1 | 2 | 3 |" in page.read_text()
     assert len(seen) == len(operators.FLOWS)
 
 
 def test_a_run_that_fails_fails_the_command(tmp_path, monkeypatch, capsys):
-    def rows_of(*rest):
+    def measure(*rest):
         raise operators.CaseError("rough_channel at 1e-07 m: exit status 3")
 
-    monkeypatch.setattr(operators, "rows_of", rows_of)
+    monkeypatch.setattr(operators, "measure", measure)
     assert operators.main(["--page", str(tmp_path / "none.md")]) == 1
     assert "exit status 3" in capsys.readouterr().out
