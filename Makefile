@@ -10,7 +10,7 @@ PYTHON := .venv/bin/python
 # Flags for the first configuration, or for changing it: make build CMAKE_FLAGS=-DSLURRY_ARCHITECTURE=x86-64-v3
 CMAKE_FLAGS ?=
 
-.PHONY: help setup configure build test test-kill reference verify stability report faults mutations claims baseline bench bench-peers bands ablation operators counts figures plot movie test-slurm lint sanitize fuzz flows format docs clean
+.PHONY: help setup configure build test test-kill reference verify stability report faults mutations claims baseline bench bench-peers bands ablation operators transients counts figures plot movie test-slurm lint sanitize fuzz flows format docs clean
 
 help: ## List the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -87,6 +87,9 @@ ablation: build ## Errors with one key changed at a time: the table of verificat
 
 operators: build ## Errors of the sums over pairs on the exact field: other tables of verification/accuracy.md
 	@$(PYTHON) -m verification.operators
+
+transients: build ## From when on a steady answer may be read, by how it starts: a table of verification/accuracy.md
+	@$(PYTHON) -m verification.transients
 
 counts: setup ## Instructions of a step (valgrind) against verification/counts.json; the exit status is the verdict
 	@env -u MAKEFLAGS -u MFLAGS $(PYTHON) -m verification.counts --jobs $(JOBS)
