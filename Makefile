@@ -109,7 +109,7 @@ lint: configure ## Check format, clang-tidy, cppcheck and ruff
 	@scripts/lint $(BUILD) $(JOBS)
 
 format: setup ## Rewrite C++ and Python files in the house's format
-	@find solver tests benchmarks \( -name '*.cpp' -o -name '*.hpp' \) -print0 2>/dev/null | xargs -0 clang-format -i
+	@find solver tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 clang-format -i
 	@$(PYTHON) -m ruff check --fix-only --quiet .
 	@$(PYTHON) -m ruff format .
 

@@ -48,7 +48,8 @@ std::size_t one(const Scene& /*scene*/) {
 
 // name, selector, number of tables, adding one, meaning
 const std::vector<Section> section_table{
-    {"scene", "", one, nullptr, "what this is, and the scheme that sets the defaults of [numerics]"},
+    {"scene", "", one, nullptr,
+     "what this is, and the scheme that sets the defaults of [numerics] and start.impulse"},
     {"domain", "", one, nullptr, "the rectangle that holds the fluid"},
     {"fluid", "", one, nullptr, "the liquid"},
     {"numerics", "", one, nullptr, "the discretisation"},
@@ -66,7 +67,7 @@ const std::vector<Section> section_table{
 const std::vector<Parameter> parameter_table{
     {"scene", "", "title", member(&Scene::title), "", word(""), anything(), "one line for reports"},
     {"scene", "", "scheme", member(&Scene::scheme), "", word("default"), one_of({"default", "wang2014"}),
-     "sets defaults of numerics: wang2014 is the paper's scheme, default what README's section Schemes "
+     "sets defaults: wang2014 is the paper's scheme, default what README's section Schemes "
      "lists"},
 
     {"domain", "", "lower", member(&Domain::lower), "m", required, anything(), "lower left corner [x, y]"},
@@ -166,7 +167,7 @@ const std::vector<Parameter> parameter_table{
     {"start", "", "impulse", member(&Start::impulse), "", Default::by_scheme(true, false), anything(),
      "rough walls that start at once push the fluid as if it were incompressible: a potential flow is added "
      "to "
-     "its velocity; false: sound has to set it in motion"},
+     "its velocity, and to that of free discs; false: sound has to set them in motion"},
 
     {"walls", "", "name", member(&WallScene::name), "", required, identifier(), "unique"},
     {"walls", "", "shape", member(&WallScene::shape), "", required,
