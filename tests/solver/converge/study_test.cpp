@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <sstream>
 
 namespace slurry {
 namespace {
@@ -148,6 +149,37 @@ TEST(Figure, HasAPanelForEachQuantityAndNothingThatIsNoNumber) {
     }
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("=\"inf"), std::string::npos); // "infinite sound speed" is in the legend
+}
+
+// The heights of a panel's curve, from the axis on, in pixels.
+std::vector<double> heights_of_curve(const std::string& svg) {
+    const std::size_t start = svg.find("<path d=\"M", svg.find("order"));
+    std::vector<double> heights;
+    std::istringstream path(svg.substr(start + 10, svg.find('"', start + 10) - start - 10));
+    std::string word; // "M64.0", then "120.3L70.1" and so on: a height and the next place
+    path >> word;
+    while (path >> word) {
+        heights.push_back(std::stod(word));
+    }
+    return heights;
+}
+
+TEST(Figure, TheCurveIsDrawnWholeWhereThePointsLieBelowIt) {
+    // The fit is of second order at most, and through the finest value: above the coarsest one.
+    const Laws sudden{"wafer", "shear_max", Kind::shear,
+                      [](double h, double) { return 100 + 0.1 * std::pow(h, 5); }};
+    const Study study = fake_study({sudden}, false);
+    ASSERT_EQ(study.quantities.at(0).spacing.verdict, Verdict::converging);
+    const std::vector<double> heights = heights_of_curve(study_svg(study));
+    ASSERT_GT(heights.size(), 30U);
+    constexpr double top_of_panel = 38, bottom_of_panel = 164;
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        EXPECT_GT(heights[k], top_of_panel);
+        EXPECT_LT(heights[k], bottom_of_panel);
+        if (k > 1) {
+            EXPECT_LT(heights[k], heights[k - 1]); // a flat end is a curve that was cut
+        }
+    }
 }
 
 } // namespace
