@@ -172,6 +172,10 @@ Study run_study(const SceneReader& read, const StudyOptions& options) {
     const Scene wanted = read({});
     const std::vector<double> spacings =
         study_spacings(wanted.domain, wanted.numerics.particle_spacing, options.spacings);
+    const std::string adapted = adaptation(wanted.domain, wanted.numerics.particle_spacing, spacings.back());
+    if (!options.quiet && !adapted.empty()) {
+        fmt::print(std::cout, "{}\n", adapted);
+    }
     std::vector<Scene> scenes;
     scenes.reserve(spacings.size());
     for (const double spacing : spacings) {
@@ -182,6 +186,7 @@ Study run_study(const SceneReader& read, const StudyOptions& options) {
         stiffer = scene_at(read, spacings[spacings.size() - 2], stiffening);
     }
     Study study;
+    study.asked_spacing = wanted.numerics.particle_spacing;
     for (Scene& scene : scenes) {
         const std::string folder = fmt::format("{:.4g}", scene.numerics.particle_spacing);
         study.runs.push_back(run_one(std::move(scene), options, folder));

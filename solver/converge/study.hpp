@@ -48,6 +48,7 @@ struct Assessment {
 };
 
 struct Study {
+    double asked_spacing = 0;       // m; that of the last run may differ (adaptation())
     std::vector<StudyRun> runs; // coarsest first
     std::optional<StudyRun> stiffer;
     std::vector<Assessment> quantities;

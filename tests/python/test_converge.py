@@ -51,6 +51,19 @@ def test_the_runs_can_be_read_like_any_other(study: tuple[Path, str]) -> None:
     assert len(list(study[0].glob("*/result.h5"))) == 4
 
 
+def test_a_spacing_that_was_changed_is_told(study: tuple[Path, str], tmp_path: Path) -> None:
+    assert "becomes" not in study[1]
+    (tmp_path / "scene.toml").write_text(SCENE)
+    done = slurry(
+        "converge", "scene.toml", "--spacing", "5.3e-7", "--set", "output.end_time=1e-7", cwd=tmp_path
+    )
+    first = done.stdout.splitlines()[0]
+    assert first.startswith("spacing 5.3e-07 m becomes 5.2632e-07 m so that the domain's sides, ")
+    stored = json.loads((tmp_path / "scene.converge/convergence.json").read_text())
+    assert stored["asked_spacing_m"] == pytest.approx(5.3e-7)
+    assert stored["runs"][-1]["spacing_m"] == pytest.approx(1e-5 / 19)
+
+
 def test_runs_of_the_same_scene_are_kept_when_asked_for(study: tuple[Path, str]) -> None:
     files = {path: path.stat().st_mtime_ns for path in study[0].glob("*/result.h5")}
     words = ("converge", "scene.toml", "--spacing", "5e-7", "--quiet", "--reuse")

@@ -42,6 +42,7 @@ StudyRun fake_run(const std::vector<Laws>& laws, double spacing, double sound_sp
 
 Study fake_study(const std::vector<Laws>& laws, bool stiffer = true) {
     Study study;
+    study.asked_spacing = 1;
     for (const double spacing : {2.0, 1.4, 1.0}) {
         study.runs.push_back(fake_run(laws, spacing, 10));
     }
@@ -65,6 +66,14 @@ TEST(Study, SeparatesWhatSpacingAndSoundSpeedCost) {
     EXPECT_NEAR(shear.sound_speed_band, 1.25 * 2, 1e-9);
     EXPECT_NEAR(shear.extrapolated(), 100, 0.1);
     EXPECT_GT(shear.band(), std::abs(shear.finest() - 100));
+}
+
+TEST(Study, ASpacingThatWasChangedIsTold) {
+    Study study = fake_study({second_order});
+    EXPECT_EQ(study_text(study, {}).find("becomes"), std::string::npos);
+    study.asked_spacing = 1.02;
+    EXPECT_NE(study_text(study, {}).find("spacing 1.02 m becomes 1 m"), std::string::npos);
+    EXPECT_NE(study_json(study, {}).find("\"asked_spacing_m\": 1.02,"), std::string::npos);
 }
 
 TEST(Study, WithoutTheStifferRunItsShareIsLeftOut) {
