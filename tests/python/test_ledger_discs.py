@@ -8,7 +8,7 @@ from ledger_fakes import Planted, results
 
 from verification.ledger import discs
 from verification.ledger.discs import CASE, VARIANT, Pair, published
-from verification.ledger.evidence import FAILS, HOLDS, OPEN
+from verification.ledger.evidence import CORRECTED, FAILS, HOLDS, OPEN
 
 CHECKS = (
     "contact_time", "leading_height", "trailing_height",
@@ -52,19 +52,35 @@ def test_the_upper_disc_by_its_speed(swapped: bool, verdict: str) -> None:
     assert discs.trailing_is_faster(planted(Pair(pair.times, pair.position, fall))).verdict == verdict
 
 
-@pytest.mark.parametrize(("end", "verdict"), [(0.29, HOLDS), (0.2, OPEN), (0.15, FAILS)])
-def test_the_phases_as_far_as_a_run_goes(end: float, verdict: str) -> None:
-    pair = published("uhlmann")
+def cut(pair: Pair, end: float) -> Pair:
     kept = pair.times <= end + 1e-9
-    cut = Pair(
+    return Pair(
         pair.times[kept],
         {name: place[kept] for name, place in pair.position.items()},
         {name: fall[kept] for name, fall in pair.fall.items()},
     )
-    found = discs.order_of_phases(planted(cut))
+
+
+@pytest.mark.parametrize(("end", "verdict"), [(0.29, HOLDS), (0.2, OPEN), (0.15, FAILS)])
+def test_the_phases_as_far_as_a_run_goes(end: float, verdict: str) -> None:
+    found = discs.order_of_phases(planted(cut(published("uhlmann"), end)))
     assert found.verdict == verdict
     assert ("none of" in found.ours) == (verdict != HOLDS)
     assert "tumbling 0.24 to 0.25 s" in found.truth
+
+
+@pytest.mark.parametrize(
+    ("ends", "verdict"), [((0.29, 0.29), HOLDS), ((0.2, 0.29), CORRECTED), ((0.2, 0.2), OPEN)]
+)
+def test_other_starts_are_asked_where_they_were_run(ends: tuple[float, float], verdict: str) -> None:
+    own, other = (PairRun(cut(published("uhlmann"), end)) for end in ends)
+    evidence = Planted(
+        results=results(discs.ENSEMBLE, "member_1"),
+        runs={(CASE, VARIANT): own, (discs.ENSEMBLE, "member_1"): other},
+    )
+    found = discs.order_of_phases(evidence)
+    assert found.verdict == verdict
+    assert f"of 1 other starts {int(ends[1] > 0.25)} tumble" in found.ours
 
 
 @pytest.mark.parametrize(

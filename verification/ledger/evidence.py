@@ -57,6 +57,11 @@ class Evidence:
                 return entry
         raise Missing(f"`make verify`, case {case}")
 
+    def variants(self, case: str) -> list[str]:
+        """Those of the default scheme that were run, none of a case that was not."""
+        entries = [e for e in (self.results or {}).get("cases", []) if e["case"] == case and e["finest"]]
+        return [entry["variant"] for entry in entries if entry["scheme"] == DEFAULT]
+
     def check(self, case: str, quantity: str, variant: str = "", scheme: str = DEFAULT) -> dict[str, Any]:
         """The check at the finest spacing, with the spacing as `spacing_m`."""
         entry = self.entry(case, variant, scheme)
