@@ -1,6 +1,7 @@
 // The command line: `slurry run|check|info|converge SCENE`, `slurry help scene`, `slurry bench`.
 #include "solver/bench/bench.hpp"
 #include "solver/converge/report.hpp"
+#include "solver/converge/shell_command.hpp"
 #include "solver/discs/motion.hpp"
 #include "solver/discs/placement.hpp"
 #include "solver/geometry/geometry_error.hpp"
@@ -55,6 +56,7 @@ struct Arguments {
     std::filesystem::path json;
     bool quick = false;
     StudyOptions study;
+    std::vector<std::string> words; // of the command line
     double error = 0.01;
 };
 
@@ -156,6 +158,11 @@ void converge(const Arguments& arguments) {
     }
     options.threads = arguments.run.threads;
     options.quiet = arguments.run.quiet;
+    std::vector<std::string> words{"slurry"}; // the same once more, so that it keeps what is done
+    words.insert(words.end(), arguments.words.begin(), arguments.words.end());
+    if (!options.reuse)
+        words.emplace_back("--reuse");
+    options.go_on = shell_command(words);
     static_cast<void>(examine(scene_of(arguments))); // warns once, not at every spacing
     const SceneReader read = [&](const std::vector<std::string>& more) {
         std::vector<std::string> overrides = overrides_of(arguments);
@@ -245,8 +252,9 @@ void add_converge_command(CLI::App& app, Arguments& arguments) {
         ->transform(CLI::Validator(share_fault, ""))
         ->type_name("SHARE")
         ->capture_default_str();
-    command->add_flag("--reuse", arguments.study.reuse,
-                      "Keep runs of the same scenes that the folder holds already");
+    command->add_flag(
+        "--reuse", arguments.study.reuse,
+        "Keep runs of the same scenes that the folder holds already; go on with an interrupted one");
     command->add_flag("!--fixed-sound-speed", arguments.study.vary_sound_speed,
                       "Leave out the run with twice the sound speed, and its share of the bands");
     add_run_options(*command, arguments.run);
@@ -319,6 +327,7 @@ int fail(std::string reason, int status) {
 
 int run_and_report(int count, char** words) {
     Arguments arguments;
+    arguments.words.assign(words + 1, words + count);
     try {
         return run_command_line(count, words, arguments);
     } catch (const CLI::ParseError& error) {

@@ -127,17 +127,18 @@ def collect(out: Path, spacing: float, level: str) -> list[Peaks]:
     out/runs; raises DataError without the abrasive-free run.
     """
     free = load_case(FREE_CASE)
-    runs = [read_run(_result(free, FREE_VARIANT, None, spacing, out), 0, 0, free.scene())]
+    runs = [read_run(result_path(free, FREE_VARIANT, None, spacing, out), 0, 0, free.scene())]
     case = load_case(CASE)
     for variant in case.data["ensemble"]["variants"]:
         for seed in case.data["ensemble"]["seeds"][level]:  # out may hold another level's, of another solver
-            path = _result(case, variant, seed, spacing, out)
+            path = result_path(case, variant, seed, spacing, out)
             if path.exists():
                 runs.append(read_run(path, count_of(case, variant), seed, case.scene()))
     return runs
 
 
-def _result(case: Case, variant: str, seed: int | None, spacing: float, out: Path) -> Path:
+def result_path(case: Case, variant: str, seed: int | None, spacing: float, out: Path) -> Path:
+    """Where a run of the workflow is, of a variant or of its member with that seed."""
     run = Run(case, "default", member(case, variant, seed), spacing, finest=True)
     return run.folder(out) / "result.h5"
 

@@ -13,7 +13,14 @@ constexpr int columns = 4;
 constexpr double panel_width = 260, panel_height = 200; // pixels, with everything around the axes
 constexpr double left = 64, right = 10, top = 38, bottom = 36;
 
-// From data to pixels in a panel.
+// The fit of a quantity that converges: limit + a spacing^order, through the value at the finest spacing.
+double fitted(const Assessment& quantity, double spacing) {
+    const Estimate& fit = quantity.spacing;
+    return fit.extrapolated + (quantity.finest() - fit.extrapolated) *
+                                  std::pow(spacing / quantity.values.back().spacing, fit.order_used);
+}
+
+// From data to pixels in a panel; everything that is drawn lies between low() and high().
 class Axes {
   public:
     Axes(const Assessment& quantity, std::size_t index)
@@ -25,7 +32,8 @@ class Axes {
         }
         for (const double value : {quantity.finest() - quantity.band(), quantity.finest() + quantity.band(),
                                    quantity.extrapolated(), quantity.spacing.extrapolated,
-                                   quantity.stiffer ? quantity.stiffer->value : quantity.finest()}) {
+                                   quantity.stiffer ? quantity.stiffer->value : quantity.finest(),
+                                   fitted(quantity, quantity.values.front().spacing)}) {
             if (std::isfinite(value)) {
                 include(value);
             }
@@ -88,20 +96,16 @@ std::string frame(const Axes& axes, const Assessment& quantity) {
     return svg + text((x0 + x1) / 2, axes.y(axes.low()) + 27, "middle", "particle spacing (m)");
 }
 
-// The curve limit + a spacing^order through the value at the finest spacing.
 std::string curve(const Axes& axes, const Assessment& quantity) {
-    const Estimate& estimate = quantity.spacing;
-    if (estimate.verdict != Verdict::converging) {
+    if (quantity.spacing.verdict != Verdict::converging) {
         return {};
     }
     std::string path;
     constexpr int points = 40;
     for (int k = 0; k <= points; ++k) {
         const double spacing = quantity.values.front().spacing * k / points;
-        const double rise = (quantity.finest() - estimate.extrapolated) *
-                            std::pow(spacing / quantity.values.back().spacing, estimate.order_used);
-        const double value = std::clamp(estimate.extrapolated + rise, axes.low(), axes.high());
-        path += fmt::format("{}{:.1f} {:.1f}", k == 0 ? "M" : "L", axes.x(spacing), axes.y(value));
+        path += fmt::format("{}{:.1f} {:.1f}", k == 0 ? "M" : "L", axes.x(spacing),
+                            axes.y(fitted(quantity, spacing)));
     }
     return fmt::format(R"(<path d="{}" fill="none" stroke="#0072b2"/>)", path) +
            circle(axes.x(0), axes.y(quantity.extrapolated()), R"(fill="white" stroke="#0072b2")");

@@ -1,5 +1,7 @@
 #include "solver/converge/report.hpp"
 
+#include "solver/converge/spacings.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -23,8 +25,11 @@ std::string json_number(double value) {
 }
 
 std::string runs_text(const Study& study) {
-    std::string text = fmt::format("{:>12} {:>12} {:>10} {:>9} {:>9}\n", "spacing (m)", "sound (m/s)",
-                                   "particles", "steps", "wall (s)");
+    const Scene& finest = study.runs.back().scene;
+    std::string text = adaptation(finest.domain, study.asked_spacing, finest.numerics.particle_spacing);
+    text += text.empty() ? "" : "\n";
+    text += fmt::format("{:>12} {:>12} {:>10} {:>9} {:>9}\n", "spacing (m)", "sound (m/s)", "particles",
+                        "steps", "wall (s)");
     const auto add = [&](const StudyRun& run) {
         const RunCost& cost = run.stored.cost;
         text += fmt::format("{:12.4g} {:12.4g} {:10.0f} {:9.0f} {:9.2f}\n",
@@ -168,10 +173,11 @@ std::string study_text(const Study& study, std::span<const Plan> plans) {
 }
 
 std::string study_json(const Study& study, std::span<const Plan> plans) {
-    return fmt::format(
-        "{{\"runs\": {},\n \"twice_the_sound_speed\": {},\n \"quantities\": {},\n \"plans\": {}}}\n",
-        json_list(study.runs), study.stiffer ? json(*study.stiffer) : "null", json_list(study.quantities),
-        json_list(plans));
+    return fmt::format("{{\"asked_spacing_m\": {},\n \"runs\": {},\n \"twice_the_sound_speed\": {},\n "
+                       "\"quantities\": {},\n \"plans\": {}}}\n",
+                       json_number(study.asked_spacing), json_list(study.runs),
+                       study.stiffer ? json(*study.stiffer) : "null", json_list(study.quantities),
+                       json_list(plans));
 }
 
 } // namespace slurry

@@ -1,5 +1,7 @@
 #include "solver/converge/spacings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,6 +50,17 @@ std::vector<double> study_spacings(const Domain& domain, double finest, int coun
         spacings.push_back(admissible_spacing(domain, finest * std::pow(std::numbers::sqrt2, k)));
     }
     return spacings;
+}
+
+std::string adaptation(const Domain& domain, double wanted, double taken) {
+    constexpr double same = 1e-9; // relative: what rounding makes of a side divided by a whole number
+    if (std::abs(taken / wanted - 1) < same) {
+        return {};
+    }
+    const Vector size = domain.size(), before = size / wanted, after = size / taken;
+    return fmt::format("spacing {:.5g} m becomes {:.5g} m so that the domain's sides, {:.5g} m and {:.5g} m, "
+                       "are whole multiples of it, or nearly: {:.5g} and {:.5g}, not {:.5g} and {:.5g}",
+                       wanted, taken, size[0], size[1], after[0], after[1], before[0], before[1]);
 }
 
 } // namespace slurry

@@ -2,6 +2,7 @@
 // The particle spacings of a convergence study.
 #include "solver/scene/scene.hpp"
 
+#include <string>
 #include <vector>
 
 namespace slurry {
@@ -14,5 +15,8 @@ namespace slurry {
 // `count` spacings, coarsest first, each about sqrt(2) times the next; the last is the admissible one nearest
 // to `finest`.
 [[nodiscard]] std::vector<double> study_spacings(const Domain& domain, double finest, int count);
+
+// What a user is told whose spacing `wanted` became `taken` (both m), and why; empty where they are the same.
+[[nodiscard]] std::string adaptation(const Domain& domain, double wanted, double taken);
 
 } // namespace slurry

@@ -175,8 +175,8 @@ class Collector {
 
 } // namespace
 
-bool is_result_of(const std::filesystem::path& result, const Scene& scene) {
-    return std::filesystem::exists(result) && Hdf5Reader(result).text("/", "scene") == scene.resolved_text;
+bool is_file_of(const std::filesystem::path& file, const Scene& scene) {
+    return std::filesystem::exists(file) && Hdf5Reader(file).text("/", "scene") == scene.resolved_text;
 }
 
 StoredRun read_run(const std::filesystem::path& result, const Scene& scene) {

@@ -36,8 +36,8 @@ struct StoredRun {
     std::vector<Quantity> quantities;
 };
 
-// Whether there is a result.h5 of a run of this very scene.
-[[nodiscard]] bool is_result_of(const std::filesystem::path& result, const Scene& scene);
+// Whether there is such a file, a result or a checkpoint, and it is of a run of this very scene.
+[[nodiscard]] bool is_file_of(const std::filesystem::path& file, const Scene& scene);
 
 // Reads the result.h5 of a run of the scene. Pressures are what exceeds the fluid's mean (an incompressible
 // pressure has no zero of its own), and a wall's largest and smallest are told from the wall's mean. Throws

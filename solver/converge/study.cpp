@@ -5,6 +5,8 @@
 #include "solver/geometry/region.hpp"
 #include "solver/particles/run_error.hpp"
 #include "solver/scene/read_scene.hpp"
+#include "solver/time/checkpoint_folder.hpp"
+#include "solver/time/interruption.hpp"
 #include "solver/time/simulation.hpp"
 
 #include <fmt/format.h>
@@ -53,10 +55,19 @@ Scene scene_at(const SceneReader& read, double spacing, double sound_speed_facto
     }
 }
 
+// The checkpoint of an interrupted run of this very scene; empty where there is none.
+std::filesystem::path interrupted_run(const std::filesystem::path& folder, const Scene& scene) {
+    if (!std::filesystem::exists(folder / "checkpoint.h5")) {
+        return {};
+    }
+    const std::filesystem::path found = find_checkpoint(folder).path;
+    return is_file_of(found, scene) ? found : std::filesystem::path();
+}
+
 StudyRun run_one(Scene scene, const StudyOptions& options, const std::string& which) {
     const double spacing = scene.numerics.particle_spacing;
     const std::filesystem::path folder = options.folder / which;
-    if (const auto result = folder / "result.h5"; options.reuse && is_result_of(result, scene)) {
+    if (const auto result = folder / "result.h5"; options.reuse && is_file_of(result, scene)) {
         return {scene, read_run(result, scene)};
     }
     if (!options.quiet) {
@@ -64,8 +75,12 @@ StudyRun run_one(Scene scene, const StudyOptions& options, const std::string& wh
                    scene.numerics.sound_speed);
     }
     try {
-        const RunSummary summary =
-            run_scene(scene, {.folder = folder, .threads = options.threads, .quiet = options.quiet});
+        const RunSummary summary = run_scene(
+            scene, {.folder = folder,
+                    .threads = options.threads,
+                    .quiet = options.quiet,
+                    .resume_from = options.reuse ? interrupted_run(folder, scene) : std::filesystem::path(),
+                    .go_on = options.go_on});
         return {scene, read_run(summary.result, scene)};
     } catch (const RunError& error) {
         throw RunError(fmt::format("at the study's spacing of {:.4g} m: {}", spacing, error.what()));
@@ -172,6 +187,10 @@ Study run_study(const SceneReader& read, const StudyOptions& options) {
     const Scene wanted = read({});
     const std::vector<double> spacings =
         study_spacings(wanted.domain, wanted.numerics.particle_spacing, options.spacings);
+    const std::string adapted = adaptation(wanted.domain, wanted.numerics.particle_spacing, spacings.back());
+    if (!options.quiet && !adapted.empty()) {
+        fmt::print(std::cout, "{}\n", adapted);
+    }
     std::vector<Scene> scenes;
     scenes.reserve(spacings.size());
     for (const double spacing : spacings) {
@@ -181,7 +200,9 @@ Study run_study(const SceneReader& read, const StudyOptions& options) {
     if (options.vary_sound_speed) {
         stiffer = scene_at(read, spacings[spacings.size() - 2], stiffening);
     }
+    const Interruption between_runs_too;
     Study study;
+    study.asked_spacing = wanted.numerics.particle_spacing;
     for (Scene& scene : scenes) {
         const std::string folder = fmt::format("{:.4g}", scene.numerics.particle_spacing);
         study.runs.push_back(run_one(std::move(scene), options, folder));

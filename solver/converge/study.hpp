@@ -19,7 +19,8 @@ struct StudyOptions {
     int threads = 1;
     bool quiet = false;
     bool vary_sound_speed = true;
-    bool reuse = false; // runs of the same scenes that the folder holds already
+    bool reuse = false;     // runs of the same scenes that the folder holds already, whole or interrupted
+    std::string go_on = {}; // as RunOptions::go_on
 };
 
 struct StudyRun {
@@ -48,6 +49,7 @@ struct Assessment {
 };
 
 struct Study {
+    double asked_spacing = 0;   // m; that of the last run may differ (adaptation())
     std::vector<StudyRun> runs; // coarsest first
     std::optional<StudyRun> stiffer;
     std::vector<Assessment> quantities;

@@ -10,6 +10,8 @@ namespace {
 std::atomic<int> received{0};
 static_assert(std::atomic<int>::is_always_lock_free, "or a handler may not write it");
 
+int alive = 0; // of the Interruptions, one inside another
+
 void note(int signal) {
     received = signal;
 }
@@ -35,14 +37,18 @@ void handle_no_more(int signal) {
 } // namespace
 
 Interruption::Interruption() {
-    received = 0;
-    handle(SIGTERM);
-    handle(SIGINT);
+    if (alive++ == 0) {
+        received = 0;
+        handle(SIGTERM);
+        handle(SIGINT);
+    }
 }
 
 Interruption::~Interruption() {
-    handle_no_more(SIGTERM);
-    handle_no_more(SIGINT);
+    if (--alive == 0) {
+        handle_no_more(SIGTERM);
+        handle_no_more(SIGINT);
+    }
 }
 
 const char* Interruption::signal_name() {

@@ -198,9 +198,10 @@ class Run {
     void stop_if_interrupted() {
         if (const char* signal = Interruption::signal_name()) {
             checkpoints_.write(identity_, state_, scene_.path);
-            throw RunInterrupted(fmt::format(
-                "ended by {} after step {} of {}, time {:.6g} s; to go on: slurry run --resume {}", signal,
-                step_, steps_, particles_.time, options_.folder.string()));
+            const std::string resume = fmt::format("slurry run --resume {}", options_.folder.string());
+            throw RunInterrupted(fmt::format("ended by {} after step {} of {}, time {:.6g} s; to go on: {}",
+                                             signal, step_, steps_, particles_.time,
+                                             options_.go_on.empty() ? resume : options_.go_on));
         }
     }
 

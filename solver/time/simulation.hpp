@@ -13,6 +13,7 @@ struct RunOptions {
     bool quiet = false;
     bool overwrite = true;
     std::filesystem::path resume_from = {}; // a checkpoint in the folder; empty: from the start
+    std::string go_on = {}; // the command that goes on after an interruption; empty: slurry run --resume
 };
 
 struct RunSummary {

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import json
 import math
+import shlex
+import signal
+import subprocess
+import time
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any
 
 import pytest
-from test_cli import SCENE, slurry
+from test_cli import SCENE, SLURRY, slurry
 
 from verification import converge
 
@@ -49,6 +53,42 @@ def test_the_figure_is_well_formed(study: tuple[Path, str]) -> None:
 
 def test_the_runs_can_be_read_like_any_other(study: tuple[Path, str]) -> None:
     assert len(list(study[0].glob("*/result.h5"))) == 4
+
+
+def test_a_spacing_that_was_changed_is_told(study: tuple[Path, str], tmp_path: Path) -> None:
+    assert "becomes" not in study[1]
+    (tmp_path / "scene.toml").write_text(SCENE)
+    done = slurry(
+        "converge", "scene.toml", "--spacing", "5.3e-7", "--set", "output.end_time=1e-7", cwd=tmp_path
+    )
+    first = done.stdout.splitlines()[0]
+    assert first.startswith("spacing 5.3e-07 m becomes 5.2632e-07 m so that the domain's sides, ")
+    stored = json.loads((tmp_path / "scene.converge/convergence.json").read_text())
+    assert stored["asked_spacing_m"] == pytest.approx(5.3e-7)
+    assert stored["runs"][-1]["spacing_m"] == pytest.approx(1e-5 / 19)
+
+
+def test_an_interrupted_study_says_how_to_go_on_and_does(tmp_path: Path) -> None:
+    (tmp_path / "my scene.toml").write_text(SCENE)
+    words = ["converge", "my scene.toml", "--spacing", "2.5e-7", "--set", "output.end_time=4e-5", "--quiet"]
+    process = subprocess.Popen([SLURRY, *words], cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    studied = tmp_path / "my scene.converge"
+    while not list(studied.glob("*/result.h5")):  # the coarsest is through, the next one runs
+        time.sleep(1e-3)
+        assert process.poll() is None
+    process.send_signal(signal.SIGTERM)
+    complaint = process.communicate()[1]
+    command = f"slurry {' '.join(words).replace('my scene.toml', repr('my scene.toml'))} --reuse"
+    assert process.returncode == 4
+    assert complaint.startswith("ended by SIGTERM after step ") and complaint.endswith(
+        f"to go on: {command}\n"
+    )
+    kept = {path: path.stat().st_mtime_ns for path in studied.glob("*/result.h5")}
+    assert len(list(studied.glob("*/checkpoint.h5"))) == 1
+    done = slurry(*shlex.split(command)[1:], cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert kept.items() <= {path: path.stat().st_mtime_ns for path in studied.glob("*/result.h5")}.items()
+    assert not list(studied.glob("*/checkpoint.h5")) and (studied / "convergence.svg").exists()
 
 
 def test_runs_of_the_same_scene_are_kept_when_asked_for(study: tuple[Path, str]) -> None:

@@ -44,5 +44,17 @@ TEST(Spacings, OfAStudyFallByTheRootOfTwoAndFit) {
     }
 }
 
+TEST(Adaptation, SaysWhichSpacingBecameWhichAndWhy) {
+    const std::string said = adaptation(box(4e-5, 2.1e-5), 4e-7, 4e-5 / 99);
+    for (const char* part : {"spacing 4e-07 m becomes 4.0404e-07 m", "4e-05 m and 2.1e-05 m",
+                             "99 and 51.975, not 100 and 52.5"}) {
+        EXPECT_NE(said.find(part), std::string::npos) << said;
+    }
+}
+
+TEST(Adaptation, SaysNothingOfASpacingThatFits) {
+    EXPECT_EQ(adaptation(box(3e-5, 1.5e-5), 2.5e-7, admissible_spacing(box(3e-5, 1.5e-5), 2.5e-7)), "");
+}
+
 } // namespace
 } // namespace slurry

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <sstream>
 
 namespace slurry {
 namespace {
@@ -41,6 +42,7 @@ StudyRun fake_run(const std::vector<Laws>& laws, double spacing, double sound_sp
 
 Study fake_study(const std::vector<Laws>& laws, bool stiffer = true) {
     Study study;
+    study.asked_spacing = 1;
     for (const double spacing : {2.0, 1.4, 1.0}) {
         study.runs.push_back(fake_run(laws, spacing, 10));
     }
@@ -64,6 +66,14 @@ TEST(Study, SeparatesWhatSpacingAndSoundSpeedCost) {
     EXPECT_NEAR(shear.sound_speed_band, 1.25 * 2, 1e-9);
     EXPECT_NEAR(shear.extrapolated(), 100, 0.1);
     EXPECT_GT(shear.band(), std::abs(shear.finest() - 100));
+}
+
+TEST(Study, ASpacingThatWasChangedIsTold) {
+    Study study = fake_study({second_order});
+    EXPECT_EQ(study_text(study, {}).find("becomes"), std::string::npos);
+    study.asked_spacing = 1.02;
+    EXPECT_NE(study_text(study, {}).find("spacing 1.02 m becomes 1 m"), std::string::npos);
+    EXPECT_NE(study_json(study, {}).find("\"asked_spacing_m\": 1.02,"), std::string::npos);
 }
 
 TEST(Study, WithoutTheStifferRunItsShareIsLeftOut) {
@@ -148,6 +158,37 @@ TEST(Figure, HasAPanelForEachQuantityAndNothingThatIsNoNumber) {
     }
     EXPECT_EQ(svg.find("nan"), std::string::npos);
     EXPECT_EQ(svg.find("=\"inf"), std::string::npos); // "infinite sound speed" is in the legend
+}
+
+// The heights of a panel's curve, from the axis on, in pixels.
+std::vector<double> heights_of_curve(const std::string& svg) {
+    const std::size_t start = svg.find("<path d=\"M", svg.find("order"));
+    std::vector<double> heights;
+    std::istringstream path(svg.substr(start + 10, svg.find('"', start + 10) - start - 10));
+    std::string word; // "M64.0", then "120.3L70.1" and so on: a height and the next place
+    path >> word;
+    while (path >> word) {
+        heights.push_back(std::stod(word));
+    }
+    return heights;
+}
+
+TEST(Figure, TheCurveIsDrawnWholeWhereThePointsLieBelowIt) {
+    // The fit is of second order at most, and through the finest value: above the coarsest one.
+    const Laws sudden{"wafer", "shear_max", Kind::shear,
+                      [](double h, double) { return 100 + 0.1 * std::pow(h, 5); }};
+    const Study study = fake_study({sudden}, false);
+    ASSERT_EQ(study.quantities.at(0).spacing.verdict, Verdict::converging);
+    const std::vector<double> heights = heights_of_curve(study_svg(study));
+    ASSERT_GT(heights.size(), 30U);
+    constexpr double top_of_panel = 38, bottom_of_panel = 164;
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        EXPECT_GT(heights[k], top_of_panel);
+        EXPECT_LT(heights[k], bottom_of_panel);
+        if (k > 1) {
+            EXPECT_LT(heights[k], heights[k - 1]); // a flat end is a curve that was cut
+        }
+    }
 }
 
 } // namespace

@@ -48,5 +48,19 @@ TEST(Interruption, LeavesASignalIgnoredThatWas) {
     std::signal(SIGINT, SIG_DFL);
 }
 
+TEST(Interruption, OneInsideAnotherKeepsWhatCameBetweenTwo) {
+    std::signal(SIGINT, SIG_DFL);
+    {
+        const Interruption of_a_study;
+        { const Interruption of_a_run; }
+        std::raise(SIGINT); // the end of the run has not given the signal back
+        const Interruption of_the_next;
+        ASSERT_NE(Interruption::signal_name(), nullptr);
+        EXPECT_EQ(std::string_view(Interruption::signal_name()), "SIGINT");
+    }
+    const Interruption of_another_study;
+    EXPECT_EQ(Interruption::signal_name(), nullptr);
+}
+
 } // namespace
 } // namespace slurry
