@@ -154,4 +154,14 @@ void check_particles(const Particles& particles, const Region& region, const Sce
     }
 }
 
+// A look takes up to half a step. `make counts` holds the share in a run below 0.5 % and finds this function
+// by its name: it must not vanish into another.
+[[gnu::noinline]] void watch(const Particles& particles, const Region& region, const Scene& scene, long step,
+                             long steps) {
+    constexpr long steps_between_looks = 200;
+    if (step % steps_between_looks == 0 || step == steps) {
+        check_particles(particles, region, scene, step);
+    }
+}
+
 } // namespace slurry

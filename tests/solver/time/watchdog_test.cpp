@@ -149,6 +149,28 @@ TEST(Watchdog, FollowsWallsThatMove) {
     EXPECT_THROW(check_particles(particles, region, scene, 2), RunError);
 }
 
+// The steps of a run of 230 after which a fault in the particle does not pass.
+std::vector<long> seen_at(const Watched& watched) {
+    std::vector<long> seen;
+    for (long step = 1; step <= 230; ++step) {
+        try {
+            watch(watched.particles, watched.region, watched.scene, step, 230);
+        } catch (const RunError&) {
+            seen.push_back(step);
+        }
+    }
+    return seen;
+}
+
+TEST(Watchdog, LooksNowAndThenAndAtTheEnd) {
+    Watched dense;
+    dense.particles.fluid.density[culprit] = 1110;
+    EXPECT_EQ(seen_at(dense), (std::vector<long>{200, 230}));
+    Watched leaked;
+    leaked.particles.fluid.y[culprit] = 1.25;
+    EXPECT_EQ(seen_at(leaked), (std::vector<long>{200, 230}));
+}
+
 // Five steps after a fault was planted in one particle: the machinery in between survives, and the watchdog
 // sees it.
 void run_with_fault(std::vector<double> FluidParticles::*array, double bad) {
