@@ -2,9 +2,9 @@
 
 Small scenes run with one thread under valgrind's cachegrind, in a build for AVX2 (valgrind has no AVX-512).
 Each runs with SHORT and with LONG steps, and the difference is what the steps in between took: starting,
-reading the scene, HDF5 and the solver's checks, of which a run has a fixed number, are in both. A count
-depends on compiler and libraries, so it is compared with counts.json only when those are the same; a limit
-holds everywhere. `--accept` stores the figures; the commit of counts.json is where a person reviews them.
+reading the scene and HDF5 are in both. What of it the watchdog takes is counted by callgrind. A count depends
+on compiler and libraries, so it is compared with counts.json only when those are the same; a limit holds
+everywhere. `--accept` stores the figures; the commit of counts.json is where a person reviews them.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from verification.compare import DataError
 from verification.measure import Result
 
 REPOSITORY = ROOT.parent
-# Steps: multiples of the number of checks in a run, and enough between them that one neighbour list more or
-# less changes the count by about what is looked for, not by several times that.
+# Steps: enough between them that one neighbour list more or less changes the count by about what is looked
+# for, not by several times that. The longer run ends with the watchdog's first look at places.
 SHORT, LONG = 50, 200
 ACOUSTIC_CFL = 0.25
 KERNEL = "fitted_quintic"  # the default scheme's
@@ -40,6 +40,9 @@ LARGEST_CHANGE = 0.02
 LARGEST_SPREAD = 0.002  # of two runs of the same: a tenth of the change that is to be found
 REPETITIONS = 2
 TIMEOUT = 300.0  # s, for one run
+CACHEGRIND = ("--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null")
+# Counts nothing but solver/time/watchdog.cpp's watch() and what it calls.
+WATCHDOG = ("--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=slurry::watch(*")
 
 Figures = dict[str, float]
 
@@ -84,12 +87,14 @@ class Run:
 SCENES = (
     Scene("rough_channel", 1e-6, 10.0),
     Scene("taylor_green", 0.04, 10.0),
+    Scene("stability/disc_crowd", 0.02, 20.0),
 )
 FIGURES = {
     "instructions_per_particle_step": Figure(+1),
     "evaluated_per_useful_pair": Figure(+1, limit=1.45),
     "steps_per_list": Figure(-1),
     "bytes_per_particle": Figure(+1),
+    "watchdog_share": Figure(+1, limit=0.005),
 }
 
 
@@ -117,11 +122,11 @@ def made_with(folder: Path) -> str:
     return f"{compiler}, {' '.join(platform.libc_ver())}"
 
 
-def count(solver: Path, scene: Scene, steps: int, out: Path) -> Run:
-    """One run of the scene under cachegrind, in the folder `out`."""
+def count(solver: Path, scene: Scene, steps: int, out: Path, tool: Sequence[str] = CACHEGRIND) -> Run:
+    """One run of the scene under a tool of valgrind, in the folder `out`."""
     words = [word for setting in scene.settings(steps) for word in ("--set", setting)]
-    command = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
-    command += [str(solver), "run", "scene.toml", *words, "--threads", "1", "--quiet", "--out", "."]
+    command = ["valgrind", *tool, str(solver), "run", "scene.toml", *words]
+    command += ["--threads", "1", "--quiet", "--out", "."]
     shutil.rmtree(out, ignore_errors=True)  # an earlier result must never pass for this one
     out.mkdir(parents=True)
     shutil.copy(ROOT / scene.case / "scene.toml", out)
@@ -149,13 +154,17 @@ def parse_instructions(text: str) -> int:
     return int(found[1].replace(",", ""))
 
 
-def figures(short: Run, long: Run) -> Figures:
-    """The figures of FIGURES that these runs allow; the lists' come from the longer one."""
+def figures(short: Run, long: Run, watchdog: Run) -> Figures:
+    """The figures of FIGURES that these runs allow; the lists' come from the longer one.
+
+    `watchdog` is the longer one again, of which nothing else was counted.
+    """
     end = long.attributes
     particles = end["fluid_particles"] + end["dummy_particles"]
-    steps = end["steps"] - short.attributes["steps"]
+    per_step = ratio(long.instructions - short.instructions, end["steps"] - short.attributes["steps"])
     result = {
-        "instructions_per_particle_step": ratio(long.instructions - short.instructions, particles * steps)
+        "instructions_per_particle_step": ratio(per_step, particles),
+        "watchdog_share": ratio(watchdog.instructions, per_step * end["steps"]),
     }
     if "list_evaluated" in end and "list_useful" in end:
         result["evaluated_per_useful_pair"] = ratio(end["list_evaluated"], end["list_useful"])
@@ -204,20 +213,21 @@ def judge_spread(runs: Sequence[Figures]) -> tuple[str, str]:
 
 def measure(solver: Path, options: argparse.Namespace) -> dict[str, list[Figures] | str]:
     """For each case the figures of every repetition, or why there are none."""
+    runs = {"short": (SHORT, CACHEGRIND), "long": (LONG, CACHEGRIND), "watchdog": (LONG, WATCHDOG)}
     with ThreadPoolExecutor(options.jobs) as pool:
         futures = {
-            (scene.case, repetition, steps): pool.submit(
-                count, solver, scene, steps, options.out / scene.case / f"{steps}_{repetition}"
+            (scene.case, repetition, name): pool.submit(
+                count, solver, scene, steps, options.out / scene.case / f"{name}_{repetition}", tool
             )
             for scene in SCENES
             for repetition in range(REPETITIONS)
-            for steps in (SHORT, LONG)
+            for name, (steps, tool) in runs.items()
         }
     measured: dict[str, list[Figures] | str] = {}
     for scene in SCENES:
         try:
             measured[scene.case] = [
-                figures(*(futures[scene.case, repetition, steps].result() for steps in (SHORT, LONG)))
+                figures(*(futures[scene.case, repetition, name].result() for name in runs))
                 for repetition in range(REPETITIONS)
             ]
         except (CountError, DataError) as error:

@@ -21,12 +21,13 @@ PHYSICS = tuple(
     for name in (
         "terms/advection_tensor.hpp", "terms/background_pressure.hpp", "terms/continuity.hpp",
         "terms/density_diffusion.hpp", "terms/equation_of_state.hpp", "terms/gradient_correction.hpp",
-        "terms/normal_equations.hpp", "terms/number_density.hpp", "terms/plain_pressure_force.hpp",
-        "terms/pressure_advection.hpp", "terms/pressure_force.hpp", "terms/viscous_force.hpp",
-        "terms/viscous_twist.hpp", "terms/wall_extrapolation.hpp", "terms/wall_fit.hpp",
-        "terms/wall_pressure_gradient.hpp",
+        "terms/normal_equations.hpp", "terms/number_density.hpp", "terms/particle_volume.hpp",
+        "terms/plain_pressure_force.hpp", "terms/pressure_advection.hpp", "terms/pressure_force.hpp",
+        "terms/viscous_force.hpp", "terms/viscous_twist.hpp", "terms/wall_extrapolation.hpp",
+        "terms/wall_fit.hpp", "terms/wall_pressure_gradient.hpp",
         "kernels/fitted_quintic.hpp", "kernels/quintic_spline.hpp", "kernels/wendland.hpp",
-        "discs/contact.cpp", "discs/disc_dummies.cpp", "discs/motion.cpp",
+        "discs/clearance.cpp", "discs/contact.cpp", "discs/crowd.cpp", "discs/disc_dummies.cpp",
+        "discs/motion.cpp",
         "geometry/layers.cpp", "loop/pair_interactions.hpp", "loop/pass_rows.hpp", "loop/units.hpp",
         "particles/particles.cpp", "probes/local_fit.cpp", "probes/point_probe.cpp", "probes/totals.cpp",
         "probes/wall_probe.cpp", "time/time_step.hpp", "time/velocity_verlet.cpp",
@@ -35,7 +36,7 @@ PHYSICS = tuple(
 FACTORS = {"sign": "-1", "drop": "0", "scale": "1.02"}
 HEADER = "solver/mutants.hpp"
 
-HIDDEN = re.compile(r'//[^\n]*|^\s*#[^\n]*|"(?:\\.|[^"\\\n])*"', re.MULTILINE)
+HIDDEN = re.compile(r'//[^\n]*|^\s*#[^\n]*|"(?:\\.|[^"\\\n])*"|\bcase\s[\w:]+', re.MULTILINE)
 # One brace group is part of an expression, as in Real{0.5} or std::min({a, b}).
 EXPRESSION = r"(?P<expression>[^\s;{}=](?:[^;{}]|(?<=[\w(])\{[^;{}]*\})*)(?=;)"
 ASSIGNED = re.compile(
@@ -73,7 +74,7 @@ class Mutant:
 
 
 def hidden(text: str) -> str:
-    """The text with comments, directives and strings blanked, every place in it the same."""
+    """The text with comments, directives, strings and labels blanked, every place in it the same."""
     return HIDDEN.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
 
 

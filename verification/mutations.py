@@ -237,6 +237,9 @@ def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--count", type=int, default=320, help="mutants to draw (%(default)s)")
     parser.add_argument("--list", action="store_true", help="only show which")
+    parser.add_argument(
+        "--file", action="append", metavar="FILE", help="draw from this one alone (again: from these)"
+    )
     parser.add_argument("--source", type=Path, default=REPOSITORY)
     parser.add_argument("--out", type=Path, default=REPOSITORY / "build" / "mutations")
     parser.add_argument(
@@ -244,7 +247,12 @@ def parse(argv: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--page", type=Path, help="where a short table by file goes, after a whole run")
     parser.add_argument("--cmake-flag", action="append", default=[], metavar="FLAG")
-    return parser.parse_args(argv)
+    options = parser.parse_args(argv)
+    if options.file and options.page:
+        parser.error("--page shows all files: leave out --file")
+    if unknown := set(options.file or ()) - set(PHYSICS):
+        parser.error(f"--file: not among the physics: {', '.join(sorted(unknown))}")
+    return options
 
 
 def judge_all(drawn: Sequence[Mutant], options: argparse.Namespace) -> list[dict[str, Any]]:
@@ -277,7 +285,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parse(argv)
     os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # threads that spin would double the time
     try:
-        texts = {file: (options.source / file).read_text() for file in PHYSICS}
+        texts = {file: (options.source / file).read_text() for file in options.file or PHYSICS}
         drawn = draw([m for file, text in texts.items() for m in mutants_of(file, text)], options.count)
         if options.list:
             print("\n".join(map(str, drawn)))

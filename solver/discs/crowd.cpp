@@ -26,7 +26,7 @@ std::array<int, 2> Crowd::cell_of(const Vector& centre) const {
     for (int axis = 0; axis < 2; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const double share = (centre[axis] - domain_.lower[axis]) / domain_.size()[axis];
-        cell[a] = std::clamp(static_cast<int>(share * cells_[a]), 0, cells_[a] - 1);
+        cell[a] = static_cast<int>(std::clamp(share * cells_[a], 0.0, cells_[a] - 1.0));
     }
     return cell;
 }

@@ -28,6 +28,7 @@ Neighbourhood::Neighbourhood(const Scene& scene, double support, double wall_sup
     : domain_(scene.domain), walls_(!scene.walls.empty() || !scene.discs.empty()),
       wall_points_(scene.numerics.wall_extrapolation == WallExtrapolation::fit),
       spacing_(scene.numerics.particle_spacing), skin_(skin_ratio * spacing_),
+      longest_way_(skin_ + scene.numerics.smoothing_length()),
       support_(support * scene.numerics.smoothing_length()),
       wall_support_(wall_support * scene.numerics.smoothing_length()),
       fluid_list_(width, scene.numerics.neighbour_search, row_bytes),
@@ -115,10 +116,11 @@ void Neighbourhood::build_dummy_list(const DummyParticles& dummies) {
                       periodic_.padding(), wall_support_ + skin_);
 }
 
-// Lists are looked at twice a step: whoever has left its neighbours behind since then is not simulated any
-// more. Discs alone have no neighbours.
+// Lists are looked at twice a step, and nobody was farther than the skin: the rest of the way took half a
+// step, in which sound gets less than half a smoothing length far. Who is faster than that is not simulated
+// any more. Discs alone have no neighbours.
 void Neighbourhood::refuse_flight(const Particles& particles, double displacement) const {
-    if (displacement > 5 * spacing_ && particles.fluid.size() > 0) {
+    if (displacement > longest_way_ && particles.fluid.size() > 0) {
         throw RunError(fmt::format("time {:.6g} s: {}; reduce numerics.acoustic_cfl, or raise "
                                    "numerics.sound_speed to 10 times the top speed",
                                    particles.time, periodic_.farthest_moved(particles)));

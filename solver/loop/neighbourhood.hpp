@@ -14,7 +14,7 @@ class Neighbourhood {
     Neighbourhood(const Scene& scene, double support, double wall_support, int width, std::size_t row_bytes);
 
     // Brings the lists up to date; wraps and sorts the particles when it makes them anew. Throws RunError
-    // when a particle has left its neighbours behind.
+    // when a particle has left its neighbours behind: by more than a smoothing length since the last call.
     void refresh(Particles& particles);
 
     // See Interactions. Wrapping and sorting are not repeated: particles sit beside a side by rounding.
@@ -39,7 +39,7 @@ class Neighbourhood {
 
     Domain domain_;
     bool walls_, wall_points_; // wall_points_: dummies look for fluid around their wall points
-    double spacing_, skin_, support_, wall_support_; // m
+    double spacing_, skin_, longest_way_, support_, wall_support_; // m
     PeriodicRows periodic_;
     DisplacementWatch watch_;
     NeighbourList fluid_list_, dummy_list_, disc_list_;

@@ -31,9 +31,6 @@ namespace slurry {
 
 namespace {
 
-// The walls' distances make a check as dear as a few steps; this many in a run cost about 1 %.
-constexpr long checks_per_run = 50;
-
 // Waking a thread takes as long as the pairs of some hundred particles. The answer is the same for any
 // number.
 int useful_threads(int wanted, const Particles& particles) {
@@ -106,9 +103,8 @@ class Run {
           particles_(timed_start(scene, region_, clock_)),
           threads_(useful_threads(options.threads, particles_)), sums_(make_interactions(scene)),
           contacts_(scene, region_), time_step_(scene.output.end_time / static_cast<double>(steps_)),
-          check_interval_(std::max(1L, steps_ / checks_per_run)), forces_{*sums_, contacts_, scene.fluid,
-                                                                          scene.numerics.sound_speed,
-                                                                          scene.numerics.keep_mean_density},
+          forces_{*sums_, contacts_, scene.fluid, scene.numerics.sound_speed,
+                  scene.numerics.keep_mean_density},
           recorder_(scene, region_, file_, steps_, time_step_),
           checkpoints_(options.folder, scene.output.checkpoint_interval, options.resume_from),
           state_{step_, particles_, *sums_, contacts_, file_, clock_} {
@@ -150,9 +146,7 @@ class Run {
         while (step_ < steps_) {
             take_step();
             const PhaseClock::Scope scope(clock_, "output and checks");
-            if (step_ % check_interval_ == 0 || step_ == steps_) {
-                check();
-            }
+            watch(particles_, region_, scene_, step_, steps_);
             recorder_.record(particles_, step_);
             progress.update(particles_.time, step_);
             if (step_ < steps_) {
@@ -193,8 +187,6 @@ class Run {
                              sums_->list_statistics(particles_));
     }
 
-    void check() const { check_particles(particles_, region_, scene_, step_); }
-
     void stop_if_interrupted() {
         if (const char* signal = Interruption::signal_name()) {
             checkpoints_.write(identity_, state_, scene_.path);
@@ -212,7 +204,7 @@ class Run {
             return;
         }
         try {
-            check();
+            check_particles(particles_, region_, scene_, step_);
             checkpoints_.write(identity_, state_, scene_.path);
         } catch (const OutputError& error) {
             warn(fmt::format("no checkpoint at step {}: {}", step_, error.what()));
@@ -248,7 +240,6 @@ class Run {
     const std::unique_ptr<Interactions> sums_;
     DiscContacts contacts_;
     const double time_step_;
-    const long check_interval_;
     Forces forces_;
     Recorder recorder_;
     CheckpointFolder checkpoints_;

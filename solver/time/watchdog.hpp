@@ -7,8 +7,13 @@
 
 namespace slurry {
 
-// Throws RunError when a fluid particle's state is not finite, its density is off by more than 10 %, or it is
-// more than half a spacing behind a wall. The region is the scene's.
+// Throws RunError when a fluid particle's or a disc's state is not finite, a density is off by more than 10
+// %, or a fluid particle is more than half a spacing behind a wall or in a disc. The region is the scene's.
 void check_particles(const Particles& particles, const Region& region, const Scene& scene, long step);
+
+// Does so after a step of the run if that is due: finite states and densities often, and after steps 1, 2, 4
+// and so on for a start that overshoots, all of it seldom. By the step alone, so that a resumed run ends
+// where one left alone would.
+void watch(const Particles& particles, const Region& region, const Scene& scene, long step, long steps);
 
 } // namespace slurry

@@ -38,6 +38,7 @@ def gate(tmp_path, monkeypatch):
     class Gate:
         stored = tmp_path / "counts.json"
         run = staticmethod(lambda scene, steps, repetition: run_of(steps, **LISTS))
+        watchdog_share = 0.004  # of a run's steps
 
         def __call__(self, *words):
             return counts.main(["--stored", str(self.stored), "--out", str(tmp_path), "--jobs", "2", *words])
@@ -48,8 +49,11 @@ def gate(tmp_path, monkeypatch):
 
     made = Gate()
 
-    def count(solver, scene, steps, out):
-        return made.run(scene.case, steps, int(out.name.split("_")[1]))
+    def count(solver, scene, steps, out, tool):
+        run = made.run(scene.case, steps, int(out.name.split("_")[1]))
+        if tool == counts.WATCHDOG:
+            return counts.Run(made.watchdog_share * (run.instructions - START_COST), run.attributes)
+        return run
 
     monkeypatch.setattr(counts, "build", lambda folder, jobs: folder / "slurry")
     monkeypatch.setattr(counts, "made_with", lambda folder: COMPILER)
@@ -62,7 +66,7 @@ def test_unchanged_counts_pass_and_the_start_cancels(gate, capsys):
     assert gate() == 0
     out = capsys.readouterr().out
     assert "2000, stored 2000 (+0.00 %)" in out
-    assert out.splitlines()[-1] == "10 passed, 0 failed"
+    assert out.splitlines()[-1] == "18 passed, 0 failed"
 
 
 @pytest.mark.parametrize(
@@ -78,6 +82,13 @@ def test_a_growth_of_instructions_by_more_than_two_percent_fails(gate, factor, s
 def test_a_stored_count_that_is_none_fails(gate, stored):
     gate.store(instructions_per_particle_step=stored)
     assert gate() == 1
+
+
+@pytest.mark.parametrize(("share", "status"), [(0.0051, 1), (0.0049, 0), (0.0, 1), (math.nan, 1)])
+def test_a_watchdog_that_takes_over_half_a_percent_or_is_not_found_fails(gate, share, status):
+    gate.store()
+    gate.watchdog_share = share
+    assert gate() == status
 
 
 def test_a_count_that_has_fallen_is_told(gate, capsys):
@@ -180,7 +191,7 @@ def test_a_run_without_count_fails(gate, capsys, error):
 
     gate.run = run
     assert gate() == 1
-    assert capsys.readouterr().out.splitlines()[-1] == "5 passed, 1 failed"
+    assert capsys.readouterr().out.splitlines()[-1] == "12 passed, 1 failed"
 
 
 def test_nothing_stored_fails_until_it_is_accepted(gate, capsys):

@@ -35,6 +35,11 @@ def test_signs_terms_and_results_of_the_physics_alone():
     assert {m.last_line for m in found} == {6, 12}
 
 
+def test_a_label_hides_no_result():
+    found = list(mutants_of("solver/volume.cpp", "switch (k) { case Kind::of_one: return m / v; }"))
+    assert [(m.kind, m.expression, m.statement) for m in found] == [("scale", "m / v", "return m / v")]
+
+
 def test_hidden_code_keeps_every_place():
     assert len(hidden(SOURCE)) == len(SOURCE)
     assert hidden(SOURCE).count("\n") == SOURCE.count("\n")

@@ -228,3 +228,15 @@ def test_the_command(options, monkeypatch, capsys):
     lines = capsys.readouterr().out.splitlines()
     assert lines[-1] == f"{count} of {count} caught (100 %), 0 survived, 0 do not build"
     assert lines[0].startswith(f"[quick unit tests 1/{count}, 0 min left] CAUGHT {FILE}:")
+
+
+def test_mutants_of_chosen_files_alone_never_become_the_page_of_all(options, monkeypatch, capsys):
+    other = "solver/other.cpp"
+    (options.source / other).write_text("{ double loss = 2.0 * gain(); }")
+    monkeypatch.setattr(mutations, "PHYSICS", (FILE, other))
+    arguments = ["--source", str(options.source), "--list", "--file", other]
+    assert mutations.main(arguments) == 0
+    assert {line.split(":")[0] for line in capsys.readouterr().out.splitlines()} == {other}
+    for wrong in (["--page", str(options.page)], ["--file", "solver/main.cpp"]):
+        with pytest.raises(SystemExit, match="2"):
+            mutations.main([*arguments, *wrong])

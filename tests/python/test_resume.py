@@ -257,7 +257,7 @@ def test_failed_state_is_set_aside_and_the_good_one_kept(alone: Path, tmp_path: 
     folder = tmp_path / "out"
     words = ["--set", "start.velocity=shear", "--set", "start.speed=30", "--quiet"]
     done = slurry("run", alone, *words, "--out", folder, cwd=tmp_path)
-    assert_refused(done, "step ", "time ", str(folder / "failed.h5"), "reduce", status=3)
+    assert_refused(done, "step ", "time ", str(folder / "failed.h5"), "raise numerics.sound_speed", status=3)
     assert sorted(path.name for path in folder.iterdir()) == ["failed.h5", "failed.xdmf"]
     with h5py.File(folder / "failed.h5") as file:
         last = sorted(file["snapshots"])[-1]

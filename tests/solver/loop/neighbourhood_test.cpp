@@ -32,6 +32,22 @@ TEST(Neighbourhood, NamesTheParticleThatLeftItsNeighbours) {
     }
 }
 
+TEST(Neighbourhood, LetsNobodyMoveMoreThanASmoothingLengthBetweenTwoLooks) {
+    const Scene scene = flat_channel(20);
+    const double skin = 0.5 * scene.numerics.particle_spacing; // at most
+    for (const auto& [way, stops] : {std::pair(0.99, false), std::pair(1.01, true)}) {
+        Particles particles = arrange(scene);
+        Neighbourhood neighbourhood = neighbourhood_of(scene);
+        neighbourhood.refresh(particles);
+        particles.fluid.y[3] += way * scene.numerics.smoothing_length() + (stops ? skin : 0);
+        if (stops) {
+            EXPECT_THROW(neighbourhood.refresh(particles), RunError);
+        } else {
+            EXPECT_NO_THROW(neighbourhood.refresh(particles));
+        }
+    }
+}
+
 TEST(Neighbourhood, DiscsAloneMayFlyPastEachOther) {
     Scene scene = doubly_periodic(20);
     scene.start.arrangement = Arrangement::empty;
