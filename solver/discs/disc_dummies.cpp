@@ -21,34 +21,55 @@ void append_ring(std::vector<DiscPoint>& points, double outer, double inner, dou
     }
 }
 
-} // namespace
-
-std::vector<DiscPoint> disc_points(double radius, DiscDummies arrangement, double particle_spacing,
-                                   int layers) {
+std::vector<DiscPoint> on_rings(double radius, double particle_spacing, int layers) {
     std::vector<DiscPoint> points;
-    if (arrangement == DiscDummies::rings) {
-        for (int layer = 0; layer < layers && radius - layer * particle_spacing > 0; ++layer) {
-            const double outer = radius - layer * particle_spacing;
-            // A rest of less than half a spacing at the centre belongs to the last ring.
-            const double inner = outer < 1.5 * particle_spacing ? 0 : outer - particle_spacing;
-            append_ring(points, outer, inner, particle_spacing);
-            if (inner == 0) {
-                break;
-            }
+    for (int layer = 0; layer < layers && radius - layer * particle_spacing > 0; ++layer) {
+        const double outer = radius - layer * particle_spacing;
+        // A rest of less than half a spacing at the centre belongs to the last ring.
+        const double inner = outer < 1.5 * particle_spacing ? 0 : outer - particle_spacing;
+        append_ring(points, outer, inner, particle_spacing);
+        if (inner == 0) {
+            break;
         }
-        return points;
     }
+    return points;
+}
+
+// All that are in the disc.
+std::vector<DiscPoint> on_a_lattice(double radius, double particle_spacing) {
+    std::vector<DiscPoint> points;
     const int half = static_cast<int>(std::ceil(radius / particle_spacing));
     for (int row = -half; row < half; ++row) {
         for (int column = -half; column < half; ++column) {
             const Vector position = particle_spacing * Vector(column + 0.5, row + 0.5);
-            const double depth = radius - position.norm();
-            if (depth > 0 && depth < layers * particle_spacing) {
+            if (position.norm() < radius) {
                 points.push_back({position, particle_spacing * particle_spacing});
             }
         }
     }
     return points;
+}
+
+bool fills(const std::vector<DiscPoint>& lattice, double radius, double particle_spacing) {
+    constexpr double tolerance = 0.1;
+    const double area = static_cast<double>(lattice.size()) * particle_spacing * particle_spacing;
+    return std::abs(area / (std::numbers::pi * radius * radius) - 1) <= tolerance;
+}
+
+} // namespace
+
+std::vector<DiscPoint> disc_points(double radius, DiscDummies arrangement, double particle_spacing,
+                                   int layers) {
+    if (arrangement != DiscDummies::rings) {
+        std::vector<DiscPoint> points = on_a_lattice(radius, particle_spacing);
+        if (arrangement == DiscDummies::lattice || fills(points, radius, particle_spacing)) {
+            std::erase_if(points, [&](const DiscPoint& point) {
+                return radius - point.position.norm() >= layers * particle_spacing;
+            });
+            return points;
+        }
+    }
+    return on_rings(radius, particle_spacing, layers);
 }
 
 void append_disc_dummies(Particles& particles, DiscDummies arrangement, double particle_spacing, int layers) {

@@ -14,7 +14,9 @@ struct DiscPoint {
 
 // Particles down to `layers` spacings beneath the rim: deeper ones are out of the fluid's reach. On rings,
 // each of whole spacings nearly, their volumes add up to the area that they stand for; on a lattice about the
-// centre, as the paper has it, each has the square of a spacing.
+// centre, as the paper has it, each has the square of a spacing. Adapted: rings for discs so small that the
+// squares' area is more than 10 % off theirs, where fluid would come into holes of the rim; else the lattice,
+// whose torque is nearer to the truth (verification/accuracy.md).
 std::vector<DiscPoint> disc_points(double radius, DiscDummies arrangement, double particle_spacing,
                                    int layers);
 

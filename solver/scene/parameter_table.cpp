@@ -131,8 +131,11 @@ const std::vector<Parameter> parameter_table{
     {"numerics", "", "wall_dummies", member(&Numerics::wall_dummies), "",
      Default::by_scheme<std::string>("curve", "lattice"), one_of({"curve", "lattice"}),
      "wall particles in layers along the wall, or on the lattice of the fluid"},
-    {"numerics", "", "disc_dummies", member(&Numerics::disc_dummies), "", word("lattice"),
-     one_of({"rings", "lattice"}), "particles of a disc on rings beneath its rim, or on a square lattice"},
+    {"numerics", "", "disc_dummies", member(&Numerics::disc_dummies), "",
+     Default::by_scheme<std::string>("adapted", "lattice"), one_of({"rings", "lattice", "adapted"}),
+     "particles of a disc on rings beneath its rim, on a square lattice, or, adapted, on rings where the "
+     "squares "
+     "of the lattice have an area more than 10 % off the disc's"},
     {"numerics", "", "wall_extrapolation", member(&Numerics::wall_extrapolation), "",
      Default::by_scheme<std::string>("fit", "mean"), one_of({"mean", "fit"}),
      "fluid continued to wall particles by kernel means (Eqs. 2.16, 2.17) or by least-squares fits"},

@@ -45,7 +45,7 @@ enum class Hydrostatics : std::uint8_t { buoyancy, full };
 enum class SizeDistribution : std::uint8_t { constant, uniform, lognormal, file };
 enum class DiscMotion : std::uint8_t { free, fixed, prescribed };
 // Where the particles of a disc lie: on rings beneath its rim, or on a square lattice (the paper's).
-enum class DiscDummies : std::uint8_t { rings, lattice };
+enum class DiscDummies : std::uint8_t { rings, lattice, adapted };
 
 struct Domain {
     Vector lower = Vector::Zero();
@@ -86,7 +86,7 @@ struct Numerics {
     bool keep_mean_density = true;
     PressureMean pressure_mean = PressureMean::density_weighted;
     DummyLayout wall_dummies = DummyLayout::curve;
-    DiscDummies disc_dummies = DiscDummies::lattice;
+    DiscDummies disc_dummies = DiscDummies::adapted;
     WallExtrapolation wall_extrapolation = WallExtrapolation::fit;
     WallContinuity wall_continuity = WallContinuity::solenoidal;
     Compressibility compressibility = Compressibility::steady_frame;

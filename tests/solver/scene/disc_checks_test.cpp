@@ -51,7 +51,8 @@ TEST_F(ReadDiscs, AreLeftOutOfScenesWithoutThem) {
 }
 
 TEST_F(ReadDiscs, HaveTheirParticlesOnALatticeOrOnRings) {
-    EXPECT_EQ(read(full_scene).numerics.disc_dummies, DiscDummies::lattice);
+    EXPECT_EQ(read(full_scene).numerics.disc_dummies, DiscDummies::adapted);
+    EXPECT_EQ(read(full_scene, {"scene.scheme=wang2014"}).numerics.disc_dummies, DiscDummies::lattice);
     EXPECT_EQ(read(full_scene, {"numerics.disc_dummies=rings"}).numerics.disc_dummies, DiscDummies::rings);
 }
 
