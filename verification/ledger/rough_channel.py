@@ -171,7 +171,7 @@ def curved_is_slower(evidence: Evidence) -> Finding:
         "s on",
         "none: an incompressible fluid has no sound, and viscosity damps both flows alike",
         verdict,
-        "what takes longer is sound, of the artificial sound speed: verification/accuracy.md has the times by how the run starts"
+        "what takes longer is artificial sound: verification/accuracy.md has the times, by how the run starts"
         if verdict == CORRECTED
         else "by wafer pressure and kinetic energy",
     )
