@@ -236,3 +236,13 @@ def require_reference_quality(error_estimate: float, kind: str = "exact", tolera
     limit = LARGEST_INDEPENDENT_ERROR if kind == "independent" else of_numbers
     if not error_estimate <= limit:
         raise DataError(f"the reference's own error is {error_estimate:.3g}, above {limit:g}")
+
+
+def settled(times: Array, errors: Array, bound: float) -> float:
+    """The time, s, of the first of the samples (n,) from which on no error (n,) exceeds the bound; NaN if the
+    last one does, or is not finite.
+    """
+    beyond = np.nonzero(~(errors <= bound))[0]
+    if len(beyond) == 0:
+        return float(times[0])
+    return float(times[beyond[-1] + 1]) if beyond[-1] + 1 < len(times) else float("nan")

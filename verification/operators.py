@@ -16,17 +16,15 @@ import argparse
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from reference import Reference
 from verification import wall_continuation
-from verification.case import ROOT, Case, CaseError, Variant, load_case
-from verification.compare import Array, DataError
-from verification.execute import Run, execute
-from verification.markers import replace_between
+from verification.case import ROOT, Case, Variant, load_case
+from verification.compare import Array
+from verification.execute import Run
 from verification.operator_forms import (
     DIVERGENCE,
     FORMS,
@@ -40,7 +38,8 @@ from verification.operator_forms import (
     sums,
 )
 from verification.page import Table
-from verification.run import REPOSITORY, References
+from verification.page_command import finished, write_tables
+from verification.run import References
 from verification.wall_continuation import Continued, continuations
 
 PAGE = ROOT / "accuracy.md"
@@ -161,11 +160,8 @@ def errors(cloud: Cloud, reference: Reference, flow: Flow) -> dict[tuple[str, st
 
 def cloud_of(run: Run, options: argparse.Namespace) -> Cloud:
     """The particles at the end of a run; raises CaseError when it fails."""
-    chosen = argparse.Namespace(**vars(options), solver_set=[], reuse=False, timeout=3600.0)
-    outcome = execute(run, chosen)
-    if outcome.failure:
-        raise CaseError(f"{run.label}: {outcome.failure}")
-    fluid, wall = outcome.result.snapshot(outcome.result.end_time)
+    result = finished(run, options)
+    fluid, wall = result.snapshot(result.end_time)
     domain = run.case.scene(run.variant)["domain"]
     size = np.subtract(domain["upper"], domain["lower"])
     period = np.where([axis in domain["periodic"] for axis in "xy"], size, 0.0)
@@ -233,29 +229,15 @@ def walls_table(measured: Sequence[Measured]) -> Table:
 TABLES = {"operators": sums_table, "forms": forms_table, "walls": walls_table}  # by their markers
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(
-        prog="python -m verification.operators", description=__doc__.splitlines()[0]
-    )
-    parser.add_argument("--solver", type=Path, default=REPOSITORY / "build" / "slurry")
-    parser.add_argument("--out", type=Path, default=REPOSITORY / "build" / "operators")
-    parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--page", type=Path, default=PAGE, help="with the markers of the tables")
-    options = parser.parse_args(argv)
+def measure_all(options: argparse.Namespace) -> dict[str, Table]:
+    """The tables by their markers."""
     references = References()
-    try:
-        measured = [run for flow in FLOWS for run in measure(flow, references, options)]
-        for name, table in TABLES.items():
-            text = table(measured).markdown().strip()
-            print(text, end="\n\n")
-            replace_between(options.page, name, text)
-    except CaseError as error:
-        print(f"FAILED: {error}")
-        return 1
-    except (DataError, OSError, ValueError) as error:
-        print(f"operators: {error}", file=sys.stderr)
-        return 2
-    return 0
+    measured = [run for flow in FLOWS for run in measure(flow, references, options)]
+    return {marker: table(measured) for marker, table in TABLES.items()}
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    return write_tables("operators", __doc__.splitlines()[0], PAGE, measure_all, argv)
 
 
 if __name__ == "__main__":

@@ -67,8 +67,7 @@ const std::vector<Section> section_table{
 const std::vector<Parameter> parameter_table{
     {"scene", "", "title", member(&Scene::title), "", word(""), anything(), "one line for reports"},
     {"scene", "", "scheme", member(&Scene::scheme), "", word("default"), one_of({"default", "wang2014"}),
-     "sets defaults: wang2014 is the paper's scheme, default what README's section Schemes "
-     "lists"},
+     "sets defaults: wang2014 is the paper's scheme, default what README's section Schemes lists"},
 
     {"domain", "", "lower", member(&Domain::lower), "m", required, anything(), "lower left corner [x, y]"},
     {"domain", "", "upper", member(&Domain::upper), "m", required, anything(), "upper right corner [x, y]"},
@@ -134,8 +133,7 @@ const std::vector<Parameter> parameter_table{
     {"numerics", "", "disc_dummies", member(&Numerics::disc_dummies), "",
      Default::by_scheme<std::string>("adapted", "lattice"), one_of({"rings", "lattice", "adapted"}),
      "particles of a disc on rings beneath its rim, on a square lattice, or, adapted, on rings where the "
-     "squares "
-     "of the lattice have an area more than 10 % off the disc's"},
+     "squares of the lattice have an area more than 10 % off the disc's"},
     {"numerics", "", "wall_extrapolation", member(&Numerics::wall_extrapolation), "",
      Default::by_scheme<std::string>("fit", "mean"), one_of({"mean", "fit"}),
      "fluid continued to wall particles by kernel means (Eqs. 2.16, 2.17) or by least-squares fits"},
@@ -169,8 +167,7 @@ const std::vector<Parameter> parameter_table{
      "of the shear at the domain's top, or Taylor-Green's peak; 0 at rest, and only then"},
     {"start", "", "impulse", member(&Start::impulse), "", Default::by_scheme(true, false), anything(),
      "rough walls that start at once push the fluid as if it were incompressible: a potential flow is added "
-     "to "
-     "its velocity, and to that of free discs; false: sound has to set them in motion"},
+     "to its velocity, and to that of free discs; false: sound has to set them in motion"},
 
     {"walls", "", "name", member(&WallScene::name), "", required, identifier(), "unique"},
     {"walls", "", "shape", member(&WallScene::shape), "", required,

@@ -112,8 +112,8 @@ def test_the_curved_wall_by_pressure_and_energy(pressure: float, energy: float, 
 
 def test_what_never_settles_is_never_steady() -> None:
     times = np.arange(5.0)
-    assert rough_channel.settled(times, np.array([1, 0.005, 0.005, 0.005, 0])) == 1
-    assert rough_channel.settled(times, np.array([1, 1, 1, 1, 0])) == np.inf
+    assert rough_channel.steady_from(times, np.array([1, 0.005, 0.005, 0.005, 0])) == 1
+    assert rough_channel.steady_from(times, np.array([1, 1, 1, 1, 0])) == np.inf
 
 
 @pytest.mark.parametrize(("layers", "verdict"), [(3, HOLDS), (2, FAILS)])

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from verification import operators, wall_continuation
+from verification.case import CaseError
 from verification.operator_forms import DIVERGENCE, FORMS, GRADIENT, MOMENTS, SOLVER, VISCOUS, Cloud
 from verification.operators import Flow, Measured
 from verification.wall_continuation import Continued
@@ -143,7 +144,7 @@ def test_the_tables_go_into_the_page(tmp_path, monkeypatch):
 
 def test_a_run_that_fails_fails_the_command(tmp_path, monkeypatch, capsys):
     def measure(*rest):
-        raise operators.CaseError("rough_channel at 1e-07 m: exit status 3")
+        raise CaseError("rough_channel at 1e-07 m: exit status 3")
 
     monkeypatch.setattr(operators, "measure", measure)
     assert operators.main(["--page", str(tmp_path / "none.md")]) == 1

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from verification import transients
+from verification.case import CaseError
 
 TIMES = np.arange(5.0)
 
@@ -61,3 +62,20 @@ def test_errors_are_those_of_each_time_and_a_mean_pressure_is_none():
 def test_the_page_has_the_table():
     text = transients.PAGE.read_text()
     assert all(f"| {name} |" in text for name in transients.STARTS)
+
+
+def test_a_start_that_stops_is_told_and_a_default_that_stops_is_not_passed_over(monkeypatch):
+    def finished(run, options):
+        if run.variant.name.endswith(", default") and not default_stops:
+            return Decaying()
+        raise CaseError("it stopped")
+
+    monkeypatch.setattr(transients, "finished", finished)
+    monkeypatch.setattr(transients.References, "of", lambda *rest: Steady())
+    default_stops = False
+    text = transients.measure(None)["transients"].markdown()
+    assert "| top wall moves | relaxed | stops |" in text
+    assert "| top wall moves | default | stops |" not in text
+    default_stops = True
+    with pytest.raises(CaseError):
+        transients.measure(None)

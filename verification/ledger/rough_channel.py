@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from verification.case import load_case
-from verification.compare import Array
+from verification.compare import Array, settled
 from verification.ledger.evidence import (
     CORRECTED,
     FAILS,
@@ -127,11 +127,12 @@ def steady_times(evidence: Evidence) -> Finding:
     )
 
 
-def settled(times: Array, apart: Array) -> float:
-    """The first of the times (n,) from which on `apart` (n,) stays within STEADY; infinite for never."""
-    late = np.flatnonzero(~(apart <= STEADY))
-    after = int(late[-1]) + 1 if late.size else 0
-    return float(times[after]) if after < len(times) - 1 else math.inf  # the last is 0 apart from itself
+def steady_from(times: Array, apart: Array) -> float:
+    """The first of the times (n,) from which on `apart` (n,), 0 at the last, stays within STEADY; infinite
+    for none before the last.
+    """
+    time = settled(times[:-1], apart[:-1], STEADY)
+    return math.inf if math.isnan(time) else time
 
 
 def starts(run: Result) -> tuple[float, float, float]:
@@ -151,7 +152,7 @@ def starts(run: Result) -> tuple[float, float, float]:
     apart = np.linalg.norm(seen - seen[-1], axis=1) / np.linalg.norm(seen[-1])
     stamps, energy = run.series("kinetic_energy")
     sound = float(run.series("largest_density_error")[1].max())
-    return settled(times, apart), settled(stamps, np.abs(energy / energy[-1] - 1)), sound
+    return steady_from(times, apart), steady_from(stamps, np.abs(energy / energy[-1] - 1)), sound
 
 
 def ordered(x: Array, values: Array) -> tuple[Array, Array]:
