@@ -17,7 +17,6 @@
 #include "solver/terms/normal_equations.hpp"
 #include "solver/terms/views.hpp"
 
-#include <algorithm>
 #include <type_traits>
 
 namespace slurry {
@@ -26,17 +25,25 @@ inline constexpr double wall_fit_support = 3; // in smoothing lengths
 // Integral of weight times distance over the half-plane in front of a flat wall: 16 (3h)^3 / 105.
 inline constexpr double half_plane_moment = 16 * wall_fit_support * wall_fit_support * wall_fit_support / 105;
 
-// How much the fluid before a wall can tell of what is behind it, of its velocity and of its pressure's
-// gradient: all where it fills the room within reach, nothing where it is a film of about one smoothing
-// length. There a disc caught between two walls turned small errors into flow through them, and the fitted
-// gradient drove a lone particle against the wall that a light disc rose to. `fluid_share`: see
-// Extrapolation; of films it is 1 - (1 - (thickness / 3h)^2)^(7/2), so that the ramps go from 1.2 h to 1.7 h
-// (velocity) and from 0.8 h to 1 h (gradient).
+// How much the fluid before a wall can tell of what is behind it: of the curvature b_1 of its velocity, of
+// the velocity that the continuity equation takes, and of its pressure's gradient. All where it fills the
+// room within reach, nothing where it is a film. In films of up to two smoothing lengths a parabola through
+// so few rows made viscosity stiffer than the time step is for: between a wall and a disc velocities changed
+// sign from step to step and grew. In films of about one, a disc caught between two walls turned small errors
+// into flow through them, and the fitted gradient drove a lone particle against the wall that a light disc
+// rose to. `fluid_share`: see Extrapolation; of films it is 1 - (1 - (thickness / 3h)^2)^(7/2), so that the
+// ramps go from 1.8 h to 2.3 h (curvature), 1.2 h to 1.7 h (velocity) and 0.8 h to 1 h (gradient).
+template <class P> P rise(const P& share, double from, double to) {
+    return 1 - positive_part(1 - positive_part((share - Element<P>(from)) * Element<P>(1 / (to - from))));
+}
+template <class P> P known_curvature(const P& fluid_share) {
+    return rise(fluid_share, 0.8, 0.95);
+}
 inline double known_velocity(double fluid_share) {
-    return std::clamp((fluid_share - 0.45) / 0.3, 0.0, 1.0);
+    return rise(fluid_share, 0.45, 0.75);
 }
 inline double known_gradient(double fluid_share) {
-    return std::clamp((fluid_share - 0.25) / 0.1, 0.0, 1.0);
+    return rise(fluid_share, 0.25, 0.35);
 }
 
 template <class View, class P> inline constexpr bool spinning = std::is_same_v<View, SpinningWallView<P>>;
@@ -51,46 +58,6 @@ template <class P, class View> WallOffset<P> wall_offset(const Pair<P>& pair, co
                                               Element<P>(1 / (wall_fit_support * wall_fit_support)));
     return {along, across - dummy.half_curvature() * along * along, remaining * remaining};
 }
-
-struct VelocityFit {
-    template <class P> struct Sums {
-        NormalEquations<P, 3> equations; // of n, n^2, n s
-        std::array<P, 3> right_x{}, right_y{};
-    };
-    template <class P, class View>
-    static void add(Sums<P>& sums, const Pair<P>& pair, const View& dummy, const View& fluid) {
-        const WallOffset<P> at = wall_offset(pair, dummy);
-        P velocity_x = fluid.velocity_x() - dummy.wall_velocity_x();
-        P velocity_y = fluid.velocity_y() - dummy.wall_velocity_y();
-        if constexpr (spinning<View, P>) { // the pair's offset points from the particle to the wall point
-            velocity_x -= dummy.spin() * pair.dy;
-            velocity_y += dummy.spin() * pair.dx;
-        }
-        const std::array<P, 3> functions{at.across, at.across * at.across, at.across * at.along};
-        const std::array<P, 3> weighted = sums.equations.add(at.weight, functions);
-        for (std::size_t k = 0; k < 3; ++k) {
-            sums.right_x[k] += weighted[k] * velocity_x;
-            sums.right_y[k] += weighted[k] * velocity_y;
-        }
-    }
-    template <class P, class View, class Real>
-    static void finish(const Sums<P>& sums, const View& dummy,
-                       const ExtrapolationCoefficients<Real>& /*unused*/, Extrapolation<P>& result) {
-        const FactoredEquations<P, 3> equations(sums.equations);
-        const auto x = equations.solve(sums.right_x);
-        const auto y = equations.solve(sums.right_y);
-        const P depth = dummy.depth();
-        result.velocity_x = dummy.wall_velocity_x() + depth * (depth * x[1] - x[0]);
-        result.velocity_y = dummy.wall_velocity_y() + depth * (depth * y[1] - y[0]);
-        // Along the wall the velocity is n (b_0 + b_2 s + ...), so that div v = 0 asks for -b_2 n^2 / 2
-        // across it.
-        result.normal_curvature = y[2] * dummy.normal_x() - x[2] * dummy.normal_y();
-        if constexpr (spinning<View, P>) {
-            result.velocity_x += dummy.spin() * depth * dummy.normal_y();
-            result.velocity_y -= dummy.spin() * depth * dummy.normal_x();
-        }
-    }
-};
 
 struct PressureFit {
     template <class P> struct Sums {
@@ -118,7 +85,58 @@ struct PressureFit {
         if constexpr (spinning<View, P>) { // else there are no discs
             result.pressure_gradient = FactoredEquations<P, 3>(sums.equations).solve(sums.right)[2];
         }
-        result.fluid_share = coefficients.mass * products[3] * Real(1 / half_plane_moment);
+        result.fluid_share = fluid_share(sums, coefficients);
+    }
+    template <class P, class Real>
+    static P fluid_share(const Sums<P>& sums, const ExtrapolationCoefficients<Real>& coefficients) {
+        return coefficients.mass * sums.equations.products[3] * Real(1 / half_plane_moment);
+    }
+};
+
+struct VelocityFit {
+    template <class P> struct Sums {
+        NormalEquations<P, 3> equations; // of n, n^2, n s
+        std::array<P, 3> right_x{}, right_y{};
+    };
+    template <class P, class View>
+    static void add(Sums<P>& sums, const Pair<P>& pair, const View& dummy, const View& fluid) {
+        const WallOffset<P> at = wall_offset(pair, dummy);
+        P velocity_x = fluid.velocity_x() - dummy.wall_velocity_x();
+        P velocity_y = fluid.velocity_y() - dummy.wall_velocity_y();
+        if constexpr (spinning<View, P>) { // the pair's offset points from the particle to the wall point
+            velocity_x -= dummy.spin() * pair.dy;
+            velocity_y += dummy.spin() * pair.dx;
+        }
+        const std::array<P, 3> functions{at.across, at.across * at.across, at.across * at.along};
+        const std::array<P, 3> weighted = sums.equations.add(at.weight, functions);
+        for (std::size_t k = 0; k < 3; ++k) {
+            sums.right_x[k] += weighted[k] * velocity_x;
+            sums.right_y[k] += weighted[k] * velocity_y;
+        }
+    }
+    template <class AllSums, class View, class Real, class P>
+    static void finish(const AllSums& all_sums, const View& dummy,
+                       const ExtrapolationCoefficients<Real>& coefficients, Extrapolation<P>& result) {
+        const Sums<P>& sums = all_sums;
+        const FactoredEquations<P, 3> equations(sums.equations);
+        const auto x = equations.solve(sums.right_x);
+        const auto y = equations.solve(sums.right_y);
+        const FactoredEquations<P, 1> line(NormalEquations<P, 1>{{sums.equations.products[0]}});
+        const P known = known_curvature(PressureFit::fluid_share<P>(all_sums, coefficients));
+        const P depth = dummy.depth();
+        const auto continued = [&](const auto& parabola, const P& right) {
+            const P slope = line.solve({right})[0];
+            return -depth * (slope + known * (parabola[0] - slope - depth * parabola[1]));
+        };
+        result.velocity_x = dummy.wall_velocity_x() + continued(x, sums.right_x[0]);
+        result.velocity_y = dummy.wall_velocity_y() + continued(y, sums.right_y[0]);
+        // Along the wall the velocity is n (b_0 + b_2 s + ...), so that div v = 0 asks for -b_2 n^2 / 2
+        // across it.
+        result.normal_curvature = y[2] * dummy.normal_x() - x[2] * dummy.normal_y();
+        if constexpr (spinning<View, P>) {
+            result.velocity_x += dummy.spin() * depth * dummy.normal_y();
+            result.velocity_y -= dummy.spin() * depth * dummy.normal_x();
+        }
     }
 };
 

@@ -14,6 +14,8 @@ namespace {
 
 // The equation of state keeps the density within 1 % up to here.
 constexpr double largest_speed_share = 0.1; // of the sound speed
+// Up to here the fluid's speed is good for 2 % of density, and an error of 5 or 10 % has another cause.
+constexpr double telling_speed_share = 1.5 * largest_speed_share;
 constexpr double fewest_across_a_gap =
     5; // spacings: they resolve a parabola (verification/stability/thin_gap)
 
@@ -75,7 +77,7 @@ std::string density_advice(const Scene& scene, const DensityFault& fault) {
                "not 0";
     }
     // Fluid at the speed of sound shows that the run went wrong, not why.
-    if (fault.fluid_speed > limit && fault.fluid_speed < sound_speed) {
+    if (fault.fluid_speed > telling_speed_share * sound_speed && fault.fluid_speed < sound_speed) {
         return speed_advice("the fluid moves at", fault.fluid_speed, sound_speed);
     }
     if (const double across = fault.gap / numerics.particle_spacing; across < fewest_across_a_gap) {

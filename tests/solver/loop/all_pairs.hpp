@@ -100,8 +100,18 @@ class AllPairs {
                 velocity.row(k) = root * (velocity_of(f) - rigid_velocity(d, s, n)).transpose();
                 pressure(k, 0) = root * fluid_.pressure[f];
             }
+            double moment = 0;
+            for (const auto& near : fluid) {
+                moment += near.weight * near.n;
+            }
+            dummies_.fluid_share[d] = moment * fluid_.mass / (scene_.fluid.density * h_ * h_) /
+                                      (16 * std::pow(wall_fit_support, 3) / 105);
             const double n = -dummies_.depth[d] / h_;
-            const Eigen::MatrixXd b = least_squares(no_slip, velocity);
+            Eigen::MatrixXd b = least_squares(no_slip, velocity);
+            const Eigen::MatrixXd line = least_squares(no_slip.leftCols(1), velocity);
+            const double known = known_curvature(dummies_.fluid_share[d]);
+            b.row(0) = known * b.row(0) + (1 - known) * line;
+            b.row(1) *= known;
             const Vector continued = rigid_velocity(d, 0, n) + n * (b.row(0) + n * b.row(1)).transpose();
             const Vector along(dummies_.normal_y[d], -dummies_.normal_x[d]);
             const double curvature = -b.row(2).dot(along); // of v . n, in 1 / h^2
@@ -110,12 +120,6 @@ class AllPairs {
             const Eigen::MatrixXd c = least_squares(linear, pressure);
             const Eigen::MatrixXd without_distance = least_squares(
                 linear.leftCols(2), (Eigen::MatrixXd(count, 2) << pressure, linear.col(2)).finished());
-            double moment = 0;
-            for (const auto& near : fluid) {
-                moment += near.weight * near.n;
-            }
-            dummies_.fluid_share[d] = moment * fluid_.mass / (scene_.fluid.density * h_ * h_) /
-                                      (16 * std::pow(wall_fit_support, 3) / 105);
             const double gradient =
                 dummies_.of_disc(d) ? known_gradient(dummies_.fluid_share[d]) * c(2, 0)
                                     : h_ * scene_.fluid.density * scene_.fluid.acceleration().dot(normal) +

@@ -73,6 +73,7 @@ void expect_exact_continuation(Scene scene) {
         return Vector(x, random());
     };
     ASSERT_GE(dummies.size(), 2 * 3 * 12U);
+    std::size_t where_all_is_known = 0;
     for (std::size_t d = 0; d < dummies.size(); ++d) {
         SCOPED_TRACE("dummy " + std::to_string(d));
         Polynomials polynomials{random_vector(), random_vector(), random_vector(),
@@ -84,10 +85,14 @@ void expect_exact_continuation(Scene scene) {
         const Vector expected =
             Vector(dummies.solid_velocity_x[d], dummies.solid_velocity_y[d]) + polynomials.velocity(0, n);
         const double pressure = polynomials.pressure(0, n);
-        EXPECT_NEAR(dummies.velocity_x[d], expected.x(), 1e-9 * expected.norm());
-        EXPECT_NEAR(dummies.velocity_y[d], expected.y(), 1e-9 * expected.norm());
         EXPECT_NEAR(dummies.pressure[d], pressure, 1e-9 * std::abs(pressure));
+        if (known_curvature(dummies.fluid_share[d]) == 1) {
+            ++where_all_is_known;
+            EXPECT_NEAR(dummies.velocity_x[d], expected.x(), 1e-9 * expected.norm());
+            EXPECT_NEAR(dummies.velocity_y[d], expected.y(), 1e-9 * expected.norm());
+        }
     }
+    EXPECT_GE(where_all_is_known, dummies.size() / 2);
 }
 
 TEST(WallFit, ContinuesItsPolynomialsThroughAFlatMovingWall) {
@@ -142,6 +147,13 @@ TEST(KnownVelocity, IsNothingInAFilmAndAllFromTwoSmoothingLengthsOn) {
     EXPECT_EQ(known_velocity(1.1), 1); // particles closer than on average
 }
 
+TEST(KnownCurvature, IsNothingInThinFilmsAndAllInThoseThatFillTheReach) {
+    EXPECT_EQ(known_curvature(0.0), 0);
+    EXPECT_EQ(known_curvature(share_of_film(1.75)), 0);
+    EXPECT_EQ(known_curvature(share_of_film(2.4)), 1);
+    EXPECT_EQ(known_curvature(1.1), 1);
+}
+
 TEST(KnownGradient, IsNothingInAFilmAndAllFromALittleMoreThanOneSmoothingLengthOn) {
     EXPECT_EQ(known_gradient(0), 0);
     EXPECT_EQ(known_gradient(share_of_film(0.8)), 0);
@@ -159,6 +171,7 @@ template <class Known> void expect_no_jump(const Known& known) {
 }
 
 TEST(WallFit, ForgetsWithoutAJump) {
+    expect_no_jump(known_curvature<double>);
     expect_no_jump(known_velocity);
     expect_no_jump(known_gradient);
 }
@@ -175,6 +188,31 @@ TEST(WallFit, KnowsFilmsFromFluidThatFillsTheRoomBeforeAWall) {
     for (const double share : film.dummies.fluid_share) {
         EXPECT_LT(share, 0.45);
     }
+}
+
+// A parabola through so few rows makes viscosity stiffer than the time step is for.
+TEST(WallFit, ContinuesAStraightLineBehindAFilm) {
+    const Scene scene = flat_channel(12, 0.7);
+    const double spacing = scene.numerics.particle_spacing;
+    Particles film = single_row(scene);
+    FluidParticles& fluid = film.fluid;
+    for (std::size_t i = 0; i < fluid.size(); ++i) {
+        const double away = i % 2 == 0 ? 0.5 : 0.6; // spacings
+        fluid.y[i] = scene.domain.lower.y() + away * spacing;
+        fluid.velocity_x[i] = away * away;
+    }
+    fit_to_walls(scene, film);
+    const DummyParticles& dummies = film.dummies;
+    std::size_t behind_the_film = 0;
+    for (std::size_t d = 0; d < dummies.size(); ++d) {
+        if (dummies.fluid_share[d] > 0) {
+            ++behind_the_film;
+            const double slope = -dummies.velocity_x[d] / dummies.depth[d] * spacing;
+            EXPECT_GT(slope, 0.5);
+            EXPECT_LT(slope, 0.6);
+        }
+    }
+    EXPECT_EQ(behind_the_film, 3 * 12U);
 }
 
 std::vector<double> density_rate(const Scene& scene, Particles particles) {

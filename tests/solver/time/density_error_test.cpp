@@ -87,6 +87,8 @@ INSTANTIATE_TEST_SUITE_P(
         Diagnosis{"FastFluid", [](Scene&, DensityFault& fault) { fault.fluid_speed = 3; },
                   "the fluid moves at up to 3 m/s, 0.3 of numerics.sound_speed, allowed 0.1: raise "
                   "numerics.sound_speed to 30"},
+        Diagnosis{"FluidHardlyTooFast", [](Scene&, DensityFault& fault) { fault.fluid_speed = 1.2; },
+                  general},
         Diagnosis{"FluidThatFliesOff", [](Scene&, DensityFault& fault) { fault.fluid_speed = 1e6; }, general},
         Diagnosis{
             "NarrowGap", [](Scene&, DensityFault& fault) { fault.gap = 0.25; },
