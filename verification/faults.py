@@ -105,9 +105,18 @@ def compiler_errors(out: Path, targets: Sequence[str], flags: Sequence[str]) -> 
     for command in (configure, ["cmake", "--build", str(folder), "--parallel", "2", "--target", *targets]):
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
-            errors = [line for line in (done.stdout + done.stderr).splitlines() if "rror" in line]
-            return errors or [" ".join(command)]
+            return error_lines(done.stdout + done.stderr) or [" ".join(command)]
     return []
+
+
+def error_lines(output: str) -> list[str]:
+    """Those of a compiler that say what is wrong, and where a template was asked for that has an error."""
+    lines = output.splitlines()
+    return [
+        line
+        for line, following in zip(lines, [*lines[1:], ""], strict=True)
+        if "rror" in line or (line.endswith("required from here") and " error: " in following)
+    ]
 
 
 def build(

@@ -29,8 +29,9 @@ PHYSICS = tuple(
         "discs/clearance.cpp", "discs/contact.cpp", "discs/crowd.cpp", "discs/disc_dummies.cpp",
         "discs/motion.cpp",
         "geometry/layers.cpp", "loop/pair_interactions.hpp", "loop/pass_rows.hpp", "loop/units.hpp",
-        "particles/particles.cpp", "probes/local_fit.cpp", "probes/point_probe.cpp", "probes/totals.cpp",
-        "probes/wall_probe.cpp", "time/time_step.hpp", "time/velocity_verlet.cpp",
+        "particles/particles.cpp", "particles/wall_impulse.cpp",
+        "probes/local_fit.cpp", "probes/point_probe.cpp", "probes/totals.cpp", "probes/wall_probe.cpp",
+        "time/time_step.hpp", "time/velocity_verlet.cpp",
     )
 )  # fmt: skip
 FACTORS = {"sign": "-1", "drop": "0", "scale": "1.02"}

@@ -46,7 +46,7 @@ TARGETS = ("slurry", "slurry_tests")
 SLOW_TEST_S = 0.5  # with no mutant; these come last
 FAILED = re.compile(r"^\[  FAILED  \] ([\w/.]+)", re.MULTILINE)
 PASSED = re.compile(r"^\[       OK \] ([\w/.]+).*\((\d+) ms\)$", re.MULTILINE)
-ERROR = re.compile(r"^(.*?):(\d+):(?:\d+:)? (?:fatal )?error:")
+ERROR = re.compile(r"^(.*?):(\d+):(?:\d+:)? (?:(?:fatal )?error:| +required from here)")
 
 
 def plant_all(drawn: Sequence[Mutant], options: argparse.Namespace) -> set[str]:

@@ -1,7 +1,6 @@
 #include "solver/particles/wall_impulse.hpp"
 
 #include "solver/discs/clearance.hpp"
-#include "solver/discs/nearest_image.hpp"
 #include "solver/particles/start_jump.hpp"
 #include "solver/scene/start_velocity.hpp"
 
@@ -44,17 +43,6 @@ Vector FaceGrid::place(double i, double j) const {
 
 namespace {
 
-// Of a wall, or of a disc that is held.
-struct RigidMotion {
-    Vector velocity = Vector::Zero(); // m/s
-    double spin = 0;                  // rad/s
-    Vector centre = Vector::Zero();   // m
-
-    [[nodiscard]] Vector at(const Vector& place, const Domain& domain) const {
-        return velocity + spin * left_of(nearest_image(place - centre, domain));
-    }
-};
-
 // Share of a face in the fluid, from the distances of its ends to the nearest solid (m, negative in it).
 double open_share(double from, double to) {
     const double larger = std::max(from, to);
@@ -62,19 +50,20 @@ double open_share(double from, double to) {
     return larger <= 0 ? 0 : smaller >= 0 ? 1 : larger / (larger - smaller);
 }
 
-RigidMotion nearest_solid(const Region& region, std::span<const Disc> held, const Vector& place) {
-    RigidMotion nearest;
+// Of the wall, or the disc that is held, m/s. A disc's spin takes nothing across its rim.
+Vector velocity_of_nearest(const Region& region, std::span<const Disc> held, const Vector& place) {
+    Vector nearest = Vector::Zero();
     double least = std::numeric_limits<double>::infinity();
     for (const Wall& wall : region.walls()) {
         if (const double distance = wall.nearest(place).distance; distance < least) {
             least = distance;
-            nearest = {wall.velocity(), 0, place};
+            nearest = wall.velocity();
         }
     }
     for (const Disc& disc : held) {
         if (const double distance = clearance({&disc, 1}, region.domain(), place); distance < least) {
             least = distance;
-            nearest = {disc.velocity, disc.spin, disc.position};
+            nearest = disc.velocity;
         }
     }
     return nearest;
@@ -97,14 +86,14 @@ Eigen::ArrayXXd corner_distances(const FaceGrid& grid, const Region& region, std
 class Potential {
   public:
     Potential(const FaceGrid& grid, const Scene& scene, const Region& region, std::span<const Disc> held)
-        : grid_(grid), scene_(scene), solids_(static_cast<std::size_t>(grid.count())),
+        : grid_(grid), scene_(scene), solids_(static_cast<std::size_t>(grid.count()), Vector::Zero()),
           outflow_(Eigen::VectorXd::Zero(grid.count())) {
         const Eigen::ArrayXXd distances = corner_distances(grid, region, held);
         for (int j = 0; j < grid.cells[1]; ++j) {
             for (int i = 0; i < grid.cells[0]; ++i) {
                 if (distances.block<2, 2>(i, j).minCoeff() < grid.size.norm()) {
                     solids_[static_cast<std::size_t>(grid.index(i, j))] =
-                        nearest_solid(region, held, grid.place(i + 0.5, j + 0.5));
+                        velocity_of_nearest(region, held, grid.place(i + 0.5, j + 0.5));
                 }
             }
         }
@@ -148,7 +137,7 @@ class Potential {
         const Vector fluid = start_velocity(scene_, centre);
         for (const auto& [cell, other, outward] :
              {std::tuple(lower, upper, 1.0), std::tuple(upper, lower, -1.0)}) {
-            const Vector solid = solids_[static_cast<std::size_t>(cell)].at(centre, grid_.domain);
+            const Vector solid = solids_[static_cast<std::size_t>(cell)];
             outflow_[cell] += outward * length * (fluid - solid)[along];
             const double coefficient = length / grid_.size[along];
             coefficients_.emplace_back(cell, cell, coefficient);
@@ -171,7 +160,7 @@ class Potential {
 
     const FaceGrid& grid_;
     const Scene& scene_;
-    std::vector<RigidMotion> solids_; // by cell; at rest where none is near, and all velocities cancel
+    std::vector<Vector> solids_; // their velocities by cell; 0 where none is near, and all would cancel
     std::vector<Face> faces_;
     std::vector<Eigen::Triplet<double>> coefficients_;
     Eigen::VectorXd outflow_; // m2/s, by cell

@@ -17,6 +17,7 @@
 #include "solver/terms/normal_equations.hpp"
 #include "solver/terms/views.hpp"
 
+#include <numbers>
 #include <type_traits>
 
 namespace slurry {
@@ -24,6 +25,13 @@ namespace slurry {
 inline constexpr double wall_fit_support = 3; // in smoothing lengths
 // Integral of weight times distance over the half-plane in front of a flat wall: 16 (3h)^3 / 105.
 inline constexpr double half_plane_moment = 16 * wall_fit_support * wall_fit_support * wall_fit_support / 105;
+// What is left of it before a wall of the given half curvature, in 1 / h: positive where fluid is in a
+// hollow.
+template <class P> P moment_before_curve(const P& half_curvature) {
+    constexpr double squared_support = wall_fit_support * wall_fit_support;
+    constexpr double loss = std::numbers::pi * squared_support * squared_support / 48 / half_plane_moment;
+    return 1 - Element<P>(loss) * half_curvature;
+}
 
 // How much the fluid before a wall can tell of what is behind it: of the curvature b_1 of its velocity, of
 // the velocity that the continuity equation takes, and of its pressure's gradient. All where it fills the
@@ -122,11 +130,12 @@ struct VelocityFit {
         const auto x = equations.solve(sums.right_x);
         const auto y = equations.solve(sums.right_y);
         const FactoredEquations<P, 1> line(NormalEquations<P, 1>{{sums.equations.products[0]}});
-        const P known = known_curvature(PressureFit::fluid_share<P>(all_sums, coefficients));
+        const P full = moment_before_curve(dummy.half_curvature());
+        const P known = known_curvature<P>(PressureFit::fluid_share<P>(all_sums, coefficients) / full);
         const P depth = dummy.depth();
         const auto continued = [&](const auto& parabola, const P& right) {
-            const P slope = line.solve({right})[0];
-            return -depth * (slope + known * (parabola[0] - slope - depth * parabola[1]));
+            return known * depth * (depth * parabola[1] - parabola[0]) -
+                   (1 - known) * depth * line.solve({right})[0];
         };
         result.velocity_x = dummy.wall_velocity_x() + continued(x, sums.right_x[0]);
         result.velocity_y = dummy.wall_velocity_y() + continued(y, sums.right_y[0]);

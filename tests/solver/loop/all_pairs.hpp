@@ -109,7 +109,8 @@ class AllPairs {
             const double n = -dummies_.depth[d] / h_;
             Eigen::MatrixXd b = least_squares(no_slip, velocity);
             const Eigen::MatrixXd line = least_squares(no_slip.leftCols(1), velocity);
-            const double known = known_curvature(dummies_.fluid_share[d]);
+            const double full = moment_before_curve(dummies_.curvature[d] * h_ / 2);
+            const double known = known_curvature(dummies_.fluid_share[d] / full);
             b.row(0) = known * b.row(0) + (1 - known) * line;
             b.row(1) *= known;
             const Vector continued = rigid_velocity(d, 0, n) + n * (b.row(0) + n * b.row(1)).transpose();
