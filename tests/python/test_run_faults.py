@@ -5,7 +5,7 @@ import sys
 import pytest
 from verification_fakes import FakeSolver, load
 
-from verification import execute, faults, run
+from verification import execute, faults, mutations, run
 from verification.faults import Fault, FaultError
 
 COUETTE = {"case": "couette", "scheme": "default", "level": "gate", "spacing": 5e-7}
@@ -168,3 +168,21 @@ def test_the_page_lists_every_fault_with_what_was_said(tmp_path):
         "| one | the scene | couette | DETECTED | velocity: exit status 3: step 8 / too dense |"
     )
     assert lines[-1] == "| two | solver/a.hpp | couette | MISSED | velocity stays green |"
+
+
+def test_where_a_library_refuses_what_a_line_of_ours_asks_for_that_line_is_named():
+    output = """In file included from ours.cpp:1:
+lib.h: In instantiation of 'void size(T) [with T = float]':
+ours.cpp:85:81:   required from here
+lib.h:807:7: error: static assertion failed: INTEGER_WAS_EXPECTED
+  807 |       assert
+lib.h: In instantiation of 'void size(T) [with T = int]':
+ours.cpp:12:3:   required from here
+lib.h:9:7: warning: unused
+"""
+    assert faults.error_lines(output) == [
+        "ours.cpp:85:81:   required from here",
+        "lib.h:807:7: error: static assertion failed: INTEGER_WAS_EXPECTED",
+    ]
+    place = mutations.ERROR.match(faults.error_lines(output)[0])
+    assert (place[1], place[2]) == ("ours.cpp", "85")
