@@ -20,7 +20,7 @@ import numpy as np
 from verification.abrasive_statistics import BANDS, LEAST_DURATIONS, analyse, interval, ranked, weight_percent
 from verification.active_shear import CASE, Peaks, Rule, read, spacing_of
 from verification.case import ROOT, load_case
-from verification.compare import DataError
+from verification.compare import DataError, settled
 from verification.page import Table
 
 ENSEMBLE = ROOT / CASE / "ensemble.csv"
@@ -73,12 +73,6 @@ def by_band(runs: Sequence[Peaks], rule: Rule, scene: dict[str, Any]) -> list[di
             row["reason"] = str(error)
         rows.append(row)
     return rows
-
-
-def settled_from(free: Peaks, rule: Rule) -> float:
-    """The time from which the abrasive-free peak stays within the band of the threshold, s."""
-    outside = np.abs(free.peak / rule.threshold - 1) > rule.band
-    return float(free.times[np.flatnonzero(outside)[-1] + 1]) if outside.any() else float(free.times[0])
 
 
 def halves(runs: Sequence[Peaks], rule: Rule) -> dict[str, Any]:
@@ -172,7 +166,7 @@ def report(csv: Path, others: Sequence[Path]) -> dict[str, Any]:
     looks = (runs[0].times[-1] - rule.settling) / result["memory_s"]
     return {
         "result": result,
-        "settled_from_s": settled_from(runs[0], rule),
+        "settled_from_s": settled(runs[0].times, np.abs(runs[0].peak / rule.threshold - 1), rule.band),
         "spacing_m": spacing_of(csv),
         "sensitivity": sensitivity(runs, rule, scene, looks),
         "bands": by_band(runs, rule, scene),
