@@ -10,7 +10,9 @@ from pathlib import Path
 from reference.base import Reference, ReferenceError
 from reference.scene import read_scene
 
-WITH_DISCS = ("added_mass", "free_flight", "immersed_boundary", "immersed_channel", "rotating_disc")
+WITH_DISCS = (
+    "added_mass", "disc_near_wall", "free_flight", "immersed_boundary", "immersed_channel", "rotating_disc",
+)  # fmt: skip
 FLOWS = ("start_up_couette", "start_up_poiseuille", "taylor_green", "channel_navier_stokes", "moving_channel")
 NAMES = (*FLOWS, *WITH_DISCS)
 

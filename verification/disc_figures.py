@@ -75,6 +75,27 @@ def torque(data: Data) -> Figure:
     return figure
 
 
+def film_forces(data: Data) -> Figure:
+    """Mean force and torque on a disc over the thickness of its film to the wall, against finite elements."""
+    figure = Figure(figsize=(9, 4), layout="constrained")
+    labels = {"force_x": "force along the wall (N/m)", "torque": "torque (N)"}
+    for axes, (field, label) in zip(figure.subplots(1, 2), labels.items(), strict=True):
+        rows = []
+        for variant in data.case.variants:
+            scene = data.case.scene(variant)
+            disc, top = scene["discs"][0], scene["domain"]["upper"][1]
+            film = (top - disc["position"][1] - disc["radius"]) / scene["numerics"]["particle_spacing"]
+            values = data.result(variant).disc("disc", field)[1]
+            truth = of_disc(data.reference(variant), "disc", field, np.zeros(1))[0]
+            rows.append((film, truth, values[len(values) // 2 :].mean()))
+        films, truths, measured = np.array(sorted(rows)).T
+        axes.plot(films, truths, "k+-", markersize=10, label="finite elements")
+        axes.plot(films, measured, "o", color=COLOURS[0], fillstyle="none", label="SPH")
+        axes.set(xlabel="thickness of the film (particle spacings)", ylabel=label)
+        axes.legend()
+    return figure
+
+
 def panels(name: str) -> Callable[[Data], Figure]:
     """The figure of the case's [[panels]] of that name: a disc's field over time against published curves."""
 
@@ -186,6 +207,7 @@ def passage(data: Data) -> Figure:
 FIGURES: dict[str, Callable[[Data], Figure]] = {
     "momentum": momentum,
     "drag": drag,
+    "film_forces": film_forces,
     "torque": torque,
     "trajectory": panels("trajectory"),
     "positions": panels("positions"),
@@ -197,6 +219,7 @@ FIGURES: dict[str, Callable[[Data], Figure]] = {
 CAPTIONS = {
     "momentum": "Momentum of fluid, discs and both.",
     "drag": "Drag on a square array of cylinders against sangani1982.",
+    "film_forces": "Force and torque on a disc held near a sliding wall, over the thickness of its film.",
     "torque": "Torque over time against the finite elements.",
     "trajectory": "Height and velocity against the published curves.",
     "snapshots": "Discs and vorticity (Fig. 9).",

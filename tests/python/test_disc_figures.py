@@ -54,7 +54,7 @@ def test_vorticity_of_a_linear_flow_is_exact():
 
 class Flat:
     def disc(self, name, field, t):
-        vector = field in ("position", "velocity")
+        vector = field in ("position", "velocity", "force")
         return np.full((*np.shape(t), 2) if vector else np.shape(t), -1e-7)
 
 
@@ -76,6 +76,7 @@ def data_of(case_name, tmp_path, names, monkeypatch, run=None, **series):
     [
         ("disc_conservation", ("heavy", "light")),
         ("disc_array_drag", ("cylinder",)),
+        ("disc_near_wall", ("disc",)),
         ("disc_rotating", ("disc",)),
         ("disc_settling", ("disc",)),
         ("disc_pair", ("leading", "trailing")),

@@ -5,11 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from reference import ReferenceError, load, rotating_disc
+from reference import ReferenceError, disc_near_wall, load, rotating_disc
 from reference.scene import read_scene
 from verification.case import ROOT
 
-FLIGHT, ROTATING = (ROOT / name / "scene.toml" for name in ("disc_flight", "disc_rotating"))
+FLIGHT, ROTATING, NEAR_WALL = (
+    ROOT / name / "scene.toml" for name in ("disc_flight", "disc_rotating", "disc_near_wall")
+)
 
 
 def test_free_flight(tmp_path):
@@ -81,6 +83,49 @@ def test_rotating_disc(tmp_path):
 def test_other_scenes_are_refused(tmp_path, change, reason):
     with pytest.raises(ReferenceError, match=reason):
         load("rotating_disc", ROTATING, change, tmp_path)
+
+
+@pytest.mark.parametrize("film", [0.03, 0.01])
+def test_the_force_of_a_thin_film_is_that_of_lubrication(film):
+    """4 pi mu U / arccosh(1 + h / R) of a disc by a plane (jeffrey1981), and an order of 1 of the rest."""
+    force, torque = disc_near_wall.force_and_torque(disc_near_wall.half_period(7, 1 + film, 4, 2), "top")
+    lubrication = 4 * math.pi / math.acosh(1 + film)
+    assert abs(force - lubrication) < 4
+    assert abs(torque) < 4
+
+
+def test_disc_near_wall(tmp_path):
+    reference = load("disc_near_wall", NEAR_WALL, {}, tmp_path)
+    assert reference.error_estimate < 2e-3
+    forces = reference.disc("disc", "force", np.zeros(3))
+    assert forces.shape == (3, 2)
+    assert forces[:, 0] == pytest.approx([reference.force] * 3)
+    assert reference.force < 0 < reference.torque  # the wafer slides to the left above the disc
+    below = {
+        "walls.wafer.velocity": [0.0, 0.0],
+        "walls.pad.velocity": [-0.1, 0.0],
+        "discs.disc.position": [2e-6, 7e-7],
+    }
+    mirrored = load("disc_near_wall", NEAR_WALL, below, tmp_path)
+    assert mirrored.force == pytest.approx(reference.force, rel=1e-9)
+    assert mirrored.torque == pytest.approx(-reference.torque, rel=1e-9)
+    assert mirrored.digest != reference.digest
+    with pytest.raises(ReferenceError, match="force along x and torque on disc only"):
+        reference.disc("disc", "spin", np.zeros(3))
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"discs.disc.motion": "free"}, "one disc, fixed"),
+        ({"discs.disc.position": [2e-6, 3.6e-6]}, "does not fit"),
+        ({"walls.pad.velocity": [0.1, 0.0]}, "one of which slides"),
+        ({"walls.wafer.velocity": [-1.0, 0.0]}, "Re of at most"),
+    ],
+)
+def test_other_scenes_have_no_force_near_a_wall(tmp_path, change, reason):
+    with pytest.raises(ReferenceError, match=reason):
+        load("disc_near_wall", NEAR_WALL, change, tmp_path)
 
 
 def test_flows_without_discs_take_no_scene_with_them(tmp_path):

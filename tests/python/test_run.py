@@ -19,6 +19,7 @@ DISCS = (
     "disc_array_drag",
     "disc_conservation",
     "disc_flight",
+    "disc_near_wall",
     "disc_pair",
     "disc_pair_ensemble",
     "disc_rotating",
