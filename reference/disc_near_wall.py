@@ -24,13 +24,12 @@ from pathlib import Path
 
 import numpy as np
 import skfem
-from scipy.sparse import bmat
-from skfem import Basis, ElementQuad1, ElementQuad2, ElementVector, MeshQuad, MeshQuad2
+from skfem import MeshQuad, MeshQuad2
 
 from reference import base, rotating_disc
 from reference import scene as scenes
 from reference.base import Array, digest_of
-from reference.rotating_disc import MOST_REYNOLDS, ROUNDING, dissipation, divergence
+from reference.rotating_disc import MOST_REYNOLDS, ROUNDING, stokes
 from reference.scene import Scene
 
 NAME = "disc_near_wall"
@@ -66,10 +65,7 @@ def half_period(below: float, above: float, half: float, refinement: int) -> Mes
 
 def force_and_torque(half: MeshQuad2, sliding: str) -> Array:
     """Of the fluid on the whole disc, (2,) over mu U and mu U R, when the wall of that name slides at U."""
-    velocity = Basis(half, ElementVector(ElementQuad2()), intorder=6)
-    pressure = velocity.with_element(ElementQuad1())
-    stiffness, coupling = dissipation.assemble(velocity), divergence.assemble(velocity, pressure)
-    matrix = bmat([[stiffness, -coupling.T], [-coupling, None]], "csr")
+    velocity, _, matrix = stokes(half)
     value = np.zeros(matrix.shape[0])
     value[velocity.get_dofs(sliding).all("u^1")] = 1
     held = [velocity.get_dofs(side).all() for side in ("disc", "bottom", "top")]

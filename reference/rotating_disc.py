@@ -24,7 +24,7 @@ from pathlib import Path
 
 import numpy as np
 import skfem
-from scipy.sparse import bmat
+from scipy.sparse import bmat, csr_matrix
 from skfem import Basis, BilinearForm, ElementQuad1, ElementQuad2, ElementVector, MeshQuad, MeshQuad2
 from skfem.helpers import ddot, div, sym_grad
 
@@ -70,12 +70,17 @@ def divergence(u: Array, q: Array, _: Array) -> Array:
     return div(u) * q
 
 
-def torque(quarter: MeshQuad2) -> float:
-    """The torque that keeps the disc of the mesh turning, over mu W: in the square of the mesh's unit."""
-    velocity = Basis(quarter, ElementVector(ElementQuad2()), intorder=6)
+def stokes(mesh: MeshQuad2) -> tuple[Basis, csr_matrix, csr_matrix]:
+    """Velocity's basis and stiffness, and the matrix of velocity and pressure together, all over mu."""
+    velocity = Basis(mesh, ElementVector(ElementQuad2()), intorder=6)
     pressure = velocity.with_element(ElementQuad1())
     stiffness, coupling = dissipation.assemble(velocity), divergence.assemble(velocity, pressure)
-    matrix = bmat([[stiffness, -coupling.T], [-coupling, None]], "csr")
+    return velocity, stiffness, bmat([[stiffness, -coupling.T], [-coupling, None]], "csr")
+
+
+def torque(quarter: MeshQuad2) -> float:
+    """The torque that keeps the disc of the mesh turning, over mu W: in the square of the mesh's unit."""
+    velocity, stiffness, matrix = stokes(quarter)
     x, y = velocity.doflocs
     value = np.zeros(matrix.shape[0])
     rim = {axis: velocity.get_dofs("disc").all(axis) for axis in ("u^1", "u^2")}
